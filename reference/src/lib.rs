@@ -1,0 +1,7 @@
+//! What is true. Depends on nothing of the solver.
+//!
+//! - [`analytic`]: one file a closed form, each with source, assumptions and tests of its own.
+//! - [`claim`]: claims as data, their acceptance, kinds of evidence.
+
+pub mod analytic;
+pub mod claim;

@@ -1,0 +1,72 @@
+//! What a boundary method says of itself, and how a side names a method with its parameters.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Value of a parameter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// A number in the parameter's unit.
+    Number(f64),
+    /// One of the parameter's choices.
+    Text(String),
+}
+
+/// What values a parameter takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ParamKind {
+    /// A number between `min` and `max`, both included, in `unit`; `default` in SI.
+    Number {
+        /// Unit as written.
+        unit: &'static str,
+        /// Used when the side does not name it; `None`: derived from the scene as the doc says.
+        default: Option<f64>,
+        /// Smallest value.
+        min: f64,
+        /// Largest value.
+        max: f64,
+    },
+    /// One of several words; the first is the default.
+    Choice(&'static [&'static str]),
+}
+
+/// A parameter of a boundary method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Param {
+    /// Key, for example `thickness_m`.
+    pub name: &'static str,
+    /// What it does, in a line.
+    pub doc: &'static str,
+    /// What it may be.
+    pub kind: ParamKind,
+}
+
+/// The method of one side, with the parameters that differ from the defaults.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SideMethod {
+    /// Name of the method, see [`super::METHODS`].
+    pub method: String,
+    /// Parameters by key.
+    #[serde(flatten)]
+    pub params: BTreeMap<String, Value>,
+}
+
+impl SideMethod {
+    /// The method `name` with its default parameters.
+    pub fn new(name: &str) -> Self {
+        SideMethod { method: name.to_owned(), params: BTreeMap::new() }
+    }
+
+    /// The same with the number `value` for `key`.
+    pub fn with(mut self, key: &str, value: f64) -> Self {
+        self.params.insert(key.to_owned(), Value::Number(value));
+        self
+    }
+
+    /// The same with the choice `value` for `key`.
+    pub fn with_choice(mut self, key: &str, value: &str) -> Self {
+        self.params.insert(key.to_owned(), Value::Text(value.to_owned()));
+        self
+    }
+}

@@ -1,0 +1,1 @@
+//! What moves: grid, points, kernels, boundary methods, time integration.

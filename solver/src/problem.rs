@@ -1,0 +1,193 @@
+//! The problem as a caller puts it: a box of material, what drives it, what bounds it, what to sample.
+//!
+//! Plain data; [`crate::solve`] turns it into grid, points and kernels.
+
+use crate::boundary::SideMethod;
+use crate::probe::Probes;
+use crate::wavelet::Pulse;
+use serde::{Deserialize, Serialize};
+
+/// Axis-aligned box (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb<const D: usize> {
+    /// Corner with the smallest coordinates.
+    pub lower: [f64; D],
+    /// Corner with the largest coordinates.
+    pub upper: [f64; D],
+}
+
+/// One face of the box: axis and whether it is the upper end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Side {
+    /// 0 for x, 1 for y, 2 for z.
+    pub axis: usize,
+    /// Upper end of the axis.
+    pub upper: bool,
+}
+
+impl Side {
+    /// Left face (x smallest).
+    pub const LEFT: Side = Side { axis: 0, upper: false };
+    /// Right face (x largest).
+    pub const RIGHT: Side = Side { axis: 0, upper: true };
+    /// Bottom face (y smallest).
+    pub const BOTTOM: Side = Side { axis: 1, upper: false };
+    /// Top face (y largest).
+    pub const TOP: Side = Side { axis: 1, upper: true };
+
+    /// Name as in `boundary.NAME`.
+    pub fn name(self) -> &'static str {
+        match (self.axis, self.upper) {
+            (0, false) => "left",
+            (0, true) => "right",
+            (1, false) => "bottom",
+            (1, true) => "top",
+            (_, false) => "back",
+            (_, true) => "front",
+        }
+    }
+}
+
+/// Shape functions on the background grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BasisKind {
+    /// Multilinear, one cell wide.
+    Linear,
+}
+
+/// Time integration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scheme {
+    /// Newmark with beta = 1/4, gamma = 1/2: second order, keeps the energy of a linear body.
+    Newmark,
+    /// Without inertia: equilibrium at each step.
+    QuasiStatic,
+}
+
+/// Whether points move with the material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PointMode {
+    /// Points move; updated Lagrangian, finite strain.
+    Moving,
+    /// Points stay; small strain. The cheap model of a linear scene.
+    Frozen,
+}
+
+/// How motion passes between points and nodes in every step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Transfer {
+    /// Nodes keep their displacement, velocity and acceleration (frozen points only).
+    Keep,
+    /// Points carry velocity and acceleration with their gradients; only the checkerboard is damped.
+    Affine,
+    /// The papers' update of velocities by accelerations; filters by 0.625 + 0.375 cos kh a direction.
+    Flip,
+    /// Velocities replaced by the grid's: very dissipative.
+    Pic,
+}
+
+/// Linear solver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SolverKind {
+    /// Conjugate gradients first; over to a factorisation when they need too many iterations.
+    Auto,
+    /// Conjugate gradients with Jacobi preconditioning.
+    Cg,
+    /// Sparse Cholesky with nested dissection of the grid.
+    Direct,
+}
+
+/// Isotropic linear elasticity (plane strain in 2D).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Elastic {
+    /// Young's modulus (Pa).
+    pub youngs_modulus: f64,
+    /// Poisson's ratio.
+    pub poissons_ratio: f64,
+    /// Density (kg/m3).
+    pub density: f64,
+}
+
+impl Elastic {
+    /// Lamé's first constant (Pa).
+    pub fn lambda(&self) -> f64 {
+        let nu = self.poissons_ratio;
+        self.youngs_modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
+    }
+
+    /// Shear modulus (Pa).
+    pub fn shear_modulus(&self) -> f64 {
+        0.5 * self.youngs_modulus / (1.0 + self.poissons_ratio)
+    }
+
+    /// Speed of compressional waves, sqrt((lambda + 2 G)/rho) (m/s).
+    pub fn p_speed(&self) -> f64 {
+        ((self.lambda() + 2.0 * self.shear_modulus()) / self.density).sqrt()
+    }
+
+    /// Speed of shear waves, sqrt(G/rho) (m/s).
+    pub fn s_speed(&self) -> f64 {
+        (self.shear_modulus() / self.density).sqrt()
+    }
+}
+
+/// What sets the body in motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Drive<const D: usize> {
+    /// The normal velocity of a side follows the pulse while it lasts; the side is free afterwards.
+    SideVelocity {
+        /// The driven side.
+        side: Side,
+        /// Velocity along `axis` (m/s), positive along the axis.
+        pulse: Pulse,
+    },
+    /// A force on a point (N per metre of thickness in 2D).
+    PointForce {
+        /// Where it acts (m).
+        place: [f64; D],
+        /// Unit vector of its direction.
+        direction: [f64; D],
+        /// Force over time.
+        pulse: Pulse,
+    },
+}
+
+/// Everything that a solve needs.
+#[derive(Clone, Debug)]
+pub struct Problem<const D: usize> {
+    /// The body of interest; layers may lie outside it.
+    pub target: Aabb<D>,
+    /// Edge length of a cell (m).
+    pub cell_size: f64,
+    /// Shape functions.
+    pub basis: BasisKind,
+    /// Time integration.
+    pub scheme: Scheme,
+    /// Time step (s).
+    pub dt: f64,
+    /// End of the run (s).
+    pub end_time: f64,
+    /// Do points move?
+    pub point_mode: PointMode,
+    /// Transfer between points and nodes.
+    pub transfer: Transfer,
+    /// Material points in a cell: a D-th power.
+    pub points_per_cell: usize,
+    /// The material of target and layers.
+    pub material: Elastic,
+    /// The boundary method of each side: `sides[axis][0]` lower, `sides[axis][1]` upper.
+    pub sides: [[SideMethod; 2]; D],
+    /// What drives it.
+    pub drives: Vec<Drive<D>>,
+    /// What to sample.
+    pub probes: Probes<D>,
+    /// Linear solver.
+    pub solver: SolverKind,
+    /// Relative tolerance of the linear solver.
+    pub rel_tol: f64,
+}

@@ -1,0 +1,1 @@
+//! The acceptance gates live in `tests/`.
