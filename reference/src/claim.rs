@@ -21,7 +21,10 @@ pub enum Evidence {
 impl Evidence {
     /// Does agreement with it count as verification?
     pub fn verifies(self) -> bool {
-        matches!(self, Evidence::Analytic | Evidence::Independent | Evidence::Certified)
+        matches!(
+            self,
+            Evidence::Analytic | Evidence::Independent | Evidence::Certified
+        )
     }
 
     /// Name in rows.
@@ -48,17 +51,26 @@ pub struct Accept {
 impl Accept {
     /// At most `max`.
     pub const fn at_most(max: f64) -> Self {
-        Accept { min: None, max: Some(max) }
+        Accept {
+            min: None,
+            max: Some(max),
+        }
     }
 
     /// At least `min`.
     pub const fn at_least(min: f64) -> Self {
-        Accept { min: Some(min), max: None }
+        Accept {
+            min: Some(min),
+            max: None,
+        }
     }
 
     /// Between `min` and `max`, both included.
     pub const fn within(min: f64, max: f64) -> Self {
-        Accept { min: Some(min), max: Some(max) }
+        Accept {
+            min: Some(min),
+            max: Some(max),
+        }
     }
 
     /// Is `value` accepted? NaN never is.

@@ -1,1 +1,74 @@
 //! What moves: grid, points, kernels, boundary methods, time integration.
+//!
+//! A [`problem::Problem`] goes in, a [`record::Record`] comes out; see [`solve`].
+
+pub mod boundary;
+pub mod error;
+pub mod probe;
+pub mod problem;
+pub mod record;
+pub mod wavelet;
+
+use error::SolverError;
+use problem::Problem;
+use record::Record;
+
+/// Told of every step; says whether to go on.
+pub trait Monitor: Sync {
+    /// `done` of `total` steps are made. Returns false to stop the run.
+    fn step(&self, done: usize, total: usize) -> bool;
+}
+
+/// What a solve leaves: the record of everything computed, and why it ended early if it did.
+#[derive(Debug)]
+pub struct Outcome {
+    /// What was computed, also after a failure.
+    pub record: Record,
+    /// The failure, if any.
+    pub error: Option<SolverError>,
+}
+
+/// What a problem uses and what that costs, known before it is solved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bill {
+    /// Features in use: basis, scheme, transfer, boundary methods.
+    pub features: Vec<String>,
+    /// Material points.
+    pub points: usize,
+    /// Nodes of the background grid.
+    pub nodes: usize,
+    /// Unknowns of the linear system.
+    pub unknowns: usize,
+    /// Time steps.
+    pub steps: usize,
+    /// Memory of a point in bytes.
+    pub bytes_per_point: usize,
+    /// Memory of a node in bytes, without the factor of a direct solver.
+    pub bytes_per_node: usize,
+}
+
+/// Solves a problem.
+///
+/// # Errors
+/// [`SolverError::Setup`] when the problem cannot be set up; failures during the run are in
+/// [`Outcome::error`], beside what was computed before.
+pub fn solve<const D: usize>(
+    _problem: &Problem<D>,
+    _monitor: &dyn Monitor,
+) -> Result<Outcome, SolverError> {
+    Err(SolverError::Setup {
+        field: "solver".into(),
+        reason: "not built yet".into(),
+    })
+}
+
+/// The bill of a problem.
+///
+/// # Errors
+/// [`SolverError::Setup`] as for [`solve`].
+pub fn bill<const D: usize>(_problem: &Problem<D>) -> Result<Bill, SolverError> {
+    Err(SolverError::Setup {
+        field: "solver".into(),
+        reason: "not built yet".into(),
+    })
+}

@@ -27,13 +27,25 @@ pub struct Side {
 
 impl Side {
     /// Left face (x smallest).
-    pub const LEFT: Side = Side { axis: 0, upper: false };
+    pub const LEFT: Side = Side {
+        axis: 0,
+        upper: false,
+    };
     /// Right face (x largest).
-    pub const RIGHT: Side = Side { axis: 0, upper: true };
+    pub const RIGHT: Side = Side {
+        axis: 0,
+        upper: true,
+    };
     /// Bottom face (y smallest).
-    pub const BOTTOM: Side = Side { axis: 1, upper: false };
+    pub const BOTTOM: Side = Side {
+        axis: 1,
+        upper: false,
+    };
     /// Top face (y largest).
-    pub const TOP: Side = Side { axis: 1, upper: true };
+    pub const TOP: Side = Side {
+        axis: 1,
+        upper: true,
+    };
 
     /// Name as in `boundary.NAME`.
     pub fn name(self) -> &'static str {

@@ -81,18 +81,36 @@ mod tests {
     #[test]
     fn rate_is_the_derivative_of_value() {
         let step = 1e-6;
-        for wavelet in [Wavelet::Sine, Wavelet::HalfSine, Wavelet::SineSquared, Wavelet::Ricker] {
-            let pulse = Pulse { wavelet, amplitude: 3.0, frequency: 2.0, t0: 0.5 };
+        for wavelet in [
+            Wavelet::Sine,
+            Wavelet::HalfSine,
+            Wavelet::SineSquared,
+            Wavelet::Ricker,
+        ] {
+            let pulse = Pulse {
+                wavelet,
+                amplitude: 3.0,
+                frequency: 2.0,
+                t0: 0.5,
+            };
             for t in [0.03, 0.11, 0.2, 0.24] {
                 let difference = (pulse.value(t + step) - pulse.value(t - step)) / (2.0 * step);
-                assert!((pulse.rate(t) - difference).abs() < 1e-6 * 100.0, "{wavelet:?} at {t}");
+                assert!(
+                    (pulse.rate(t) - difference).abs() < 1e-6 * 100.0,
+                    "{wavelet:?} at {t}"
+                );
             }
         }
     }
 
     #[test]
     fn shapes_have_their_peaks_and_ends() {
-        let pulse = |wavelet| Pulse { wavelet, amplitude: 2.0, frequency: 1.0, t0: 0.75 };
+        let pulse = |wavelet| Pulse {
+            wavelet,
+            amplitude: 2.0,
+            frequency: 1.0,
+            t0: 0.75,
+        };
         assert!((pulse(Wavelet::HalfSine).value(0.25) - 2.0).abs() < 1e-15);
         assert!((pulse(Wavelet::SineSquared).value(0.25) - 2.0).abs() < 1e-15);
         assert!((pulse(Wavelet::Ricker).value(0.75) - 2.0).abs() < 1e-15);

@@ -55,7 +55,10 @@ pub struct SideMethod {
 impl SideMethod {
     /// The method `name` with its default parameters.
     pub fn new(name: &str) -> Self {
-        SideMethod { method: name.to_owned(), params: BTreeMap::new() }
+        SideMethod {
+            method: name.to_owned(),
+            params: BTreeMap::new(),
+        }
     }
 
     /// The same with the number `value` for `key`.
@@ -66,7 +69,19 @@ impl SideMethod {
 
     /// The same with the choice `value` for `key`.
     pub fn with_choice(mut self, key: &str, value: &str) -> Self {
-        self.params.insert(key.to_owned(), Value::Text(value.to_owned()));
+        self.params
+            .insert(key.to_owned(), Value::Text(value.to_owned()));
         self
     }
+}
+
+/// A boundary method as its file exports it.
+#[derive(Debug)]
+pub struct MethodInfo {
+    /// Name in rows and flags.
+    pub name: &'static str,
+    /// What it is, in a line.
+    pub summary: &'static str,
+    /// Its parameters.
+    pub params: &'static [Param],
 }
