@@ -2,6 +2,8 @@
 //!
 //! - [`analytic`]: one file a closed form, each with source, assumptions and tests of its own.
 //! - [`claim`]: claims as data, their acceptance, kinds of evidence.
+//! - [`stored`]: loader of stored tables, which refuses what is not whole.
 
 pub mod analytic;
 pub mod claim;
+pub mod stored;
