@@ -290,7 +290,7 @@ fn traces_show_every_receiver_and_method() {
 #[test]
 fn echo_has_decades_and_its_floor() {
     look("echo", echo().draw(), &["10⁻⁴", "echo / peak", "floor"]);
-    look("energy", energy().draw(), &["energy (J/m)", "10²"]);
+    look("energy", energy().draw(), &["energy (J/m)", "time (s)"]);
 }
 
 #[test]
@@ -303,7 +303,7 @@ fn bars_show_values_and_costs() {
 fn fields_share_a_scale() {
     let texts = ["height y (m)", "velocity (m/s)", "layer", "dashpot"];
     look("space_time", space_time().draw(), &texts);
-    let texts = ["t = 0.800 s", "pml-stretched", "displacement |u| (10⁻⁶ m)"];
+    let texts = ["t = 0.8 s", "pml-stretched", "displacement |u| (10⁻⁶ m)"];
     look("snapshots", snapshots().draw(), &texts);
 }
 

@@ -78,6 +78,14 @@ impl Axis {
         }
     }
 
+    /// Exactly `min..max` (both positive) on a logarithmic scale with the given ticks.
+    pub fn log_at(min: f64, max: f64, ticks: Vec<f64>) -> Axis {
+        Axis {
+            ticks,
+            ..Self::log_range(min, max, 1)
+        }
+    }
+
     /// Where `value` lies, 0 at the lower end and 1 at the upper; clamped.
     pub fn share(&self, value: f64) -> f64 {
         let share = if self.log {
@@ -131,10 +139,7 @@ impl Axis {
 fn log_label(value: f64) -> String {
     let exponent = value.log10();
     if (exponent - exponent.round()).abs() > 1e-6 {
-        return crate::format::number(value)
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-            .to_owned();
+        return crate::format::short(value);
     }
     match exponent.round() as i32 {
         0 => "1".to_owned(),

@@ -99,7 +99,7 @@ impl BarPlot {
         Ok(left)
     }
 
-    /// From a decade below the smallest positive value to a decade's end above the largest.
+    /// From below the smallest positive value to above the largest, with room for the numbers.
     fn echo_axis(&self) -> Axis {
         let values = self
             .echo
@@ -115,7 +115,7 @@ impl BarPlot {
         if high == 0.0 {
             return Axis::log(1e-3, 1.0, 6);
         }
-        Axis::log(0.3 * low, 2.5 * high, 7)
+        Axis::log_range(0.2 * low, 6.0 * high, 7)
     }
 
     fn draw_column(

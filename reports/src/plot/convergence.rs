@@ -44,8 +44,8 @@ impl ConvergencePlot {
             top: 16.0,
             width: f64::from(WIDTH) - 72.0 - LEGEND,
             height: f64::from(HEIGHT) - 16.0 - 46.0,
-            x: Axis::log_range(h.0 / 1.5, h.1 * 1.5, 6),
-            y: Axis::log(errors.0 / 1.5, errors.1 * 1.5, 8),
+            x: Axis::log_at(h.0 / 1.5, h.1 * 1.5, self.levels()),
+            y: Axis::log_range(errors.0 / 2.5, errors.1 * 1.8, 8),
         };
         panel.grid(&mut drawing);
         self.draw_triangle(&mut drawing, &panel, h, errors);
@@ -56,6 +56,14 @@ impl ConvergencePlot {
         panel.x_title(&mut drawing, "cell size h (m)");
         panel.y_title(&mut drawing, &self.quantity, 54.0);
         Ok(drawing)
+    }
+
+    /// The distinct cell sizes.
+    fn levels(&self) -> Vec<f64> {
+        let mut levels: Vec<f64> = self.series.iter().flat_map(|s| s.h.clone()).collect();
+        levels.sort_by(f64::total_cmp);
+        levels.dedup();
+        levels
     }
 
     /// Smallest and largest h and error, after a check of the data.

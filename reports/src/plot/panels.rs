@@ -8,8 +8,8 @@ const WIDTH: u32 = 900;
 const LEFT: f64 = 66.0;
 const RIGHT: f64 = 14.0;
 const GAP_X: f64 = 64.0;
-const GAP_Y: f64 = 30.0;
-const FOOT: f64 = 42.0;
+const GAP_Y: f64 = 46.0;
+const FOOT: f64 = 28.0;
 
 /// One named line, usually a method.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,13 +131,13 @@ impl Panels<'_> {
                 Axis::linear(min - margin, max + margin, (height / 34.0) as usize)
             }
             Vertical::Log { floor } => {
-                let peaks: Vec<f64> = self.all_lines().map(|l| bounds(&l.y).1).collect();
-                let top = peaks.iter().copied().fold(floor.unwrap_or(0.0), f64::max);
+                let peaks = self.all_lines().map(|l| bounds(&l.y).1);
+                let top = peaks.fold(floor.unwrap_or(0.0), f64::max);
                 let top = if top > 0.0 { top } else { 1.0 };
-                // Two decades below the quietest line or the floor; at most ten in all.
-                let heard = peaks.into_iter().filter(|p| *p > 0.0);
-                let quiet = heard.chain(floor).fold(top, f64::min);
-                let bottom = f64::max(1e-2 * quiet, 1e-10 * top);
+                // A decade below what the quietest line ends at or the floor; at most ten in all.
+                let ends = self.all_lines().map(final_peak).filter(|p| *p > 0.0);
+                let quiet = ends.chain(floor).fold(top, f64::min);
+                let bottom = f64::max(0.1 * quiet, 1e-10 * top);
                 Axis::log(bottom, top, (height / 26.0) as usize)
             }
         }
@@ -147,14 +147,14 @@ impl Panels<'_> {
         panel.grid(drawing);
         if let Some(reference) = &content.reference {
             let stroke = Stroke::solid(palette::REFERENCE, 4.5);
-            drawing.add(Mark::Path(place(panel, reference), stroke));
+            draw_line(drawing, panel, reference, stroke);
         }
         // Later lines are thinner, so that lines that coincide all stay visible.
         let count = content.lines.len();
         for (i, line) in content.lines.iter().enumerate() {
             let share = i as f64 / (count.max(2) - 1) as f64;
-            let stroke = Stroke::solid(palette::method(&line.name), 2.4 - 1.2 * share);
-            drawing.add(Mark::Path(place(panel, line), stroke));
+            let stroke = Stroke::solid(palette::method(&line.name), 3.2 - 2.0 * share);
+            draw_line(drawing, panel, line, stroke);
         }
         if let Vertical::Log { floor: Some(floor) } = self.vertical {
             let y = panel.at(0.0, floor).1;
@@ -216,12 +216,29 @@ fn draw_legend(drawing: &mut Drawing, entries: &[Entry]) {
     }
 }
 
+/// Largest value over the last quarter of a line.
+fn final_peak(line: &Line) -> f64 {
+    bounds(&line.y[3 * line.y.len() / 4..]).1
+}
+
 fn bounds<'a>(values: impl IntoIterator<Item = &'a f64>) -> (f64, f64) {
     values
         .into_iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
             (low.min(*v), high.max(*v))
         })
+}
+
+/// Draws a line, interrupted where it runs below the panel.
+fn draw_line(drawing: &mut Drawing, panel: &Panel, line: &Line, stroke: Stroke) {
+    let foot = panel.bottom() - 1e-9;
+    let points = place(panel, line);
+    // Joined are neighbours of which at least one is inside: the line is seen to leave and return.
+    for run in points.chunk_by(|a, b| a.1 < foot || b.1 < foot) {
+        if run.len() > 1 {
+            drawing.add(Mark::Path(run.to_vec(), stroke));
+        }
+    }
 }
 
 /// The line on the panel, thinned to the extremes of each half pixel.

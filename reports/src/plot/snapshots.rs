@@ -1,16 +1,16 @@
 //! Fields on a lattice: columns are methods, rows are times, one scale for all.
 
-use super::axis::{Axis, LABEL_TEXT, Panel};
-use super::drawing::{Align, Drawing, Mark, Stroke};
+use super::axis::{Axis, Panel};
+use super::drawing::{Drawing, Mark, Stroke};
 use super::heat::{Colours, Raster, colour_bar};
 use super::{PlotError, check, empty, palette};
 use anechoic_solver::record::Snapshot;
 
 const PICTURE: &str = "snapshots";
 const WIDTH: f64 = 900.0;
-const LEFT: f64 = 84.0;
+const LEFT: f64 = 92.0;
 const BAR: f64 = 92.0;
-const GAP: f64 = 10.0;
+const GAP: f64 = 20.0;
 const TOP: f64 = 26.0;
 const FOOT: f64 = 40.0;
 
@@ -183,10 +183,9 @@ impl SnapshotPlot {
             panel.x_title(drawing, "x (m)");
         }
         if column == 0 {
-            panel.y_title(drawing, "y (m)", 52.0);
-            let at = (8.0, panel.top - 2.0);
-            let text = format!("t = {} s", crate::format::number(time));
-            drawing.text(&text, (at.0, at.1.max(10.0)), LABEL_TEXT, Align::Start);
+            panel.y_title(drawing, "y (m)", 50.0);
+            let text = format!("t = {} s", crate::format::short(time));
+            panel.y_title(drawing, &text, 78.0);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A field over place and time: waves and their echoes as slanted bands, methods side by side.
 
 use super::axis::{Axis, Panel};
-use super::drawing::{Align, Drawing, Stroke};
+use super::drawing::{Align, Drawing, Mark, Stroke, text_width};
 use super::heat::{Colours, Raster, colour_bar};
 use super::{PlotError, check, empty, palette};
 use anechoic_solver::record::SpaceTime;
@@ -14,6 +14,7 @@ const GAP: f64 = 16.0;
 const HEIGHT: f64 = 230.0;
 const ROW: f64 = HEIGHT + 44.0;
 const FOOT: f64 = 34.0;
+const GUIDE_TEXT: f64 = 10.0;
 /// Panels in a row.
 const ACROSS: usize = 3;
 
@@ -55,11 +56,11 @@ impl SpaceTimePlot {
                 top: 28.0 + row as f64 * ROW,
                 width,
                 height: HEIGHT,
-                x: range(self.fields.iter().flat_map(|(_, f)| &f.times), width / 60.0),
+                x: range(self.fields.iter().flat_map(|(_, f)| &f.times), width / 44.0),
                 y: range(self.fields.iter().flat_map(|(_, f)| &f.positions), 6.0),
             };
             draw_field(&mut drawing, &panel, field, &colours);
-            self.draw_guides(&mut drawing, &panel);
+            self.draw_guides(&mut drawing, &panel)?;
             panel.frame(&mut drawing, true, column == 0);
             panel.headline(&mut drawing, method);
             if i + across >= self.fields.len() {
@@ -111,16 +112,24 @@ impl SpaceTimePlot {
         if limit > 0.0 { limit } else { 1.0 }
     }
 
-    fn draw_guides(&self, drawing: &mut Drawing, panel: &Panel) {
+    fn draw_guides(&self, drawing: &mut Drawing, panel: &Panel) -> Result<(), PlotError> {
         for guide in &self.guides {
             let y = panel.at(0.0, guide.position).1;
             let stroke = Stroke::dashed(palette::SOFT, 0.8);
             drawing.line((panel.left, y), (panel.right(), y), stroke);
             // Above its line, but inside the panel for a line at its top.
             let offset = if y - panel.top < 14.0 { 7.0 } else { -7.0 };
-            let at = (panel.right() - 4.0, y + offset);
-            drawing.text(&guide.label, at, 10.0, Align::End);
+            let (right, middle) = (panel.right() - 4.0, y + offset);
+            let width = text_width(&guide.label, GUIDE_TEXT)?;
+            let box_from = (right - width - 2.0, middle - 5.5);
+            drawing.add(Mark::Fill(
+                box_from,
+                (right + 2.0, middle + 5.5),
+                palette::PAPER,
+            ));
+            drawing.text(&guide.label, (right, middle), GUIDE_TEXT, Align::End);
         }
+        Ok(())
     }
 }
 
