@@ -23,6 +23,16 @@ pub fn number(value: f64) -> String {
     }
 }
 
+/// As [`number`], without zeros at the end of a fraction: `0.8`, `2`.
+pub fn short(value: f64) -> String {
+    let text = number(value);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
 /// A whole number with thousands set apart: `120 000` with narrow no-break spaces.
 pub fn count(value: usize) -> String {
     grouped(value as f64)
@@ -92,6 +102,9 @@ mod tests {
         assert_eq!(number(4.2e-7), "4.20e-7");
         assert_eq!(number(60_701.0), "60\u{202f}701");
         assert_eq!(number(1.5e9), "1.50e9");
+        assert_eq!(short(0.8), "0.8");
+        assert_eq!(short(2.0), "2");
+        assert_eq!(short(100.0), "100");
         assert_eq!(count(1_234_567), "1\u{202f}234\u{202f}567");
     }
 

@@ -5,6 +5,7 @@
 //! - [`row`]: the flat rows that everything ends in.
 //! - [`ranking`]: methods by their echo, cost beside it, down to the floor of the reference.
 //! - [`table`], [`export`]: rows for the terminal and for other programs.
+//! - [`plot`]: pictures as SVG and PNG, one file a kind.
 //! - [`provenance`]: where a result comes from.
 //! - [`format`](mod@format): numbers as readers want them.
 
@@ -12,6 +13,7 @@ pub mod export;
 pub mod format;
 pub mod judge;
 pub mod norms;
+pub mod plot;
 pub mod provenance;
 pub mod ranking;
 pub mod row;
