@@ -9,10 +9,14 @@
 //! - [`commands`], [`cli`]: the program.
 
 pub mod checks;
+pub mod cli;
+pub mod commands;
 pub mod draft;
 pub mod error;
 pub mod field;
+pub mod filter;
 pub mod judge;
+pub mod pictures;
 pub mod prepare;
 pub mod progress;
 pub mod provenance;
@@ -22,3 +26,4 @@ pub mod scene_text;
 pub mod scenes;
 pub mod spec;
 pub mod store;
+pub mod study;

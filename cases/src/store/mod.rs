@@ -42,6 +42,13 @@ pub struct Manifest {
     pub provenance: Provenance,
 }
 
+impl Manifest {
+    /// Folder of the run below that of its case.
+    pub fn folder(&self) -> PathBuf {
+        Path::new(&self.method).join(&self.hash)
+    }
+}
+
 /// What `record.json` holds.
 #[derive(Debug, Serialize, Deserialize)]
 struct Fields {
@@ -82,9 +89,7 @@ impl Store {
 
     /// Folder of a run.
     pub fn run_folder(&self, manifest: &Manifest) -> PathBuf {
-        self.case_folder(&manifest.case)
-            .join(&manifest.method)
-            .join(&manifest.hash)
+        self.case_folder(&manifest.case).join(manifest.folder())
     }
 
     /// Stores a run; an earlier one of the same input is replaced when the new one is whole.
@@ -123,19 +128,19 @@ impl Store {
         }
         std::fs::rename(new.keep(), &folder).map_err(|e| failed(&folder, e))
     }
+}
 
-    /// Stores the rows of a run beside its record.
-    ///
-    /// # Errors
-    /// [`CaseError::Storage`].
-    pub fn save_rows(&self, run: &Run, rows: &[Row]) -> Result<(), CaseError> {
-        let own: Vec<&Row> = rows
-            .iter()
-            .filter(|row| row.method == run.manifest.method)
-            .collect();
-        let path = self.run_folder(&run.manifest).join("metrics.json");
-        write_file(&path, &json(&own)?)
-    }
+/// Stores the rows of a run beside its record; `case_folder` is that of the case.
+///
+/// # Errors
+/// [`CaseError::Storage`].
+pub fn save_rows(case_folder: &Path, manifest: &Manifest, rows: &[Row]) -> Result<(), CaseError> {
+    let own: Vec<&Row> = rows
+        .iter()
+        .filter(|row| row.method == manifest.method)
+        .collect();
+    let path = case_folder.join(manifest.folder()).join("metrics.json");
+    write_file(&path, &json(&own)?)
 }
 
 /// Reads a run back.
