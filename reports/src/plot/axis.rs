@@ -3,9 +3,9 @@
 use super::drawing::{Align, Drawing, Mark, Stroke};
 use super::palette;
 
-pub(super) const TICK_TEXT: f64 = 11.0;
-pub(super) const LABEL_TEXT: f64 = 12.0;
-pub(super) const TITLE_TEXT: f64 = 13.0;
+pub(super) const TICK_TEXT: f64 = 12.0;
+pub(super) const LABEL_TEXT: f64 = 13.0;
+pub(super) const TITLE_TEXT: f64 = 14.0;
 
 /// A range of values along one direction of a panel.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,7 @@ use crate::format;
 const PICTURE: &str = "bars";
 const WIDTH: f64 = 900.0;
 const ROW: f64 = 26.0;
-const TOP: f64 = 34.0;
+const TOP: f64 = 42.0;
 const FOOT: f64 = 44.0;
 const GAP: f64 = 26.0;
 
@@ -160,7 +160,7 @@ impl BarPlot {
             place_value(drawing, panel, &text, (label_at, corner.0), middle);
         }
         frame(drawing, panel);
-        let at = (panel.left, panel.top - 14.0);
+        let at = (panel.left, panel.top - 26.0);
         drawing.text(&bars.title, at, LABEL_TEXT, Align::Start);
         panel.x_title(drawing, &panel.x.title("", &bars.unit));
     }

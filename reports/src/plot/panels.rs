@@ -153,7 +153,7 @@ impl Panels<'_> {
         let count = content.lines.len();
         for (i, line) in content.lines.iter().enumerate() {
             let share = i as f64 / (count.max(2) - 1) as f64;
-            let stroke = Stroke::solid(palette::method(&line.name), 3.2 - 2.0 * share);
+            let stroke = Stroke::solid(palette::method(&line.name), 3.0 - 1.5 * share);
             draw_line(drawing, panel, line, stroke);
         }
         if let Vertical::Log { floor: Some(floor) } = self.vertical {
