@@ -4,6 +4,7 @@ use crate::checks::Checks;
 use crate::field::Field;
 use crate::spec::BoundarySpec;
 use anechoic_reference::claim::{Claim, Evidence};
+use anechoic_reports::study::Finding;
 use anechoic_solver::problem::Problem;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -144,6 +145,8 @@ pub struct SceneInfo {
     pub name: &'static str,
     /// What it is, in a line.
     pub title: &'static str,
+    /// What happens in it, in a few sentences.
+    pub summary: &'static str,
     /// Paper, section.
     pub source: &'static str,
     /// Its fields, in the order in which they are shown.
@@ -154,6 +157,8 @@ pub struct SceneInfo {
     pub presets: &'static [Overlay],
     /// Boundary methods that apply, as presets over sides.
     pub methods: &'static [Overlay],
+    /// What the paper says and how it fares: finding, place, note.
+    pub ledger: &'static [(Finding, &'static str, &'static str)],
     /// The method that absorbs nothing, over which echoes are taken.
     pub standard: &'static str,
     /// The scene's own values.

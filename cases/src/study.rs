@@ -7,8 +7,11 @@ use crate::pictures::{self, Picture};
 use crate::runner::Run;
 use crate::store::{json, load, read_json, save_rows, write_file};
 use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
+use anechoic_reports::html;
+use anechoic_reports::plot::PlotError;
 use anechoic_reports::ranking::{Floor, Ranking};
 use anechoic_reports::row::Row;
+use anechoic_reports::study::{self as reports, Figure, LedgerEntry, RunSummary};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -77,21 +80,62 @@ pub fn publish(folder: &Path, runs: Vec<Run>, command: &str) -> Result<Published
     }
     let ranking = rank(&judged.rows);
     let pictures = pictures::draw(&runs, &ranking).map_err(|e| failed("the pictures", &e))?;
-    for picture in &pictures {
-        save_picture(folder, picture)?;
-    }
-    let report = folder.join("report.html");
-    let ranking = ranking
-        .methods
+    let figures = pictures
         .iter()
-        .any(|method| method.echo.is_some())
-        .then_some(ranking);
+        .map(|picture| save_picture(folder, picture))
+        .collect::<Result<_, _>>()?;
+    let ranked = ranking.methods.iter().any(|method| method.echo.is_some());
+    let ranking = ranked.then_some(ranking);
+    let report = folder.join("report.html");
+    if let Some(study) = describe(&runs, &judged.rows, ranking.clone(), figures, command) {
+        write_file(&report, html::report(&study).as_bytes())?;
+    }
     Ok(Published {
         runs,
         rows: judged.rows,
         ranking,
         reference_missing: judged.reference_missing,
         report,
+    })
+}
+
+/// The report's content; none without runs.
+fn describe(
+    runs: &[Run],
+    rows: &[Row],
+    ranking: Option<Ranking>,
+    figures: Vec<Figure>,
+    command: &str,
+) -> Option<reports::Study> {
+    let first = runs.first()?;
+    let info = first.prepared.info;
+    Some(reports::Study {
+        case: info.name.to_owned(),
+        title: info.title.to_owned(),
+        summary: format!("{} {}", info.summary, info.source),
+        profile: first.manifest.profile.clone(),
+        command: command.to_owned(),
+        rows: rows.to_vec(),
+        ranking,
+        runs: runs
+            .iter()
+            .map(|run| RunSummary {
+                method: run.manifest.method.clone(),
+                status: run.record.status.clone(),
+                cost: run.record.cost.clone(),
+                provenance: run.manifest.provenance.clone(),
+            })
+            .collect(),
+        ledger: info
+            .ledger
+            .iter()
+            .map(|(finding, place, note)| LedgerEntry {
+                finding: *finding,
+                place: (*place).to_owned(),
+                note: (*note).to_owned(),
+            })
+            .collect(),
+        figures,
     })
 }
 
@@ -111,12 +155,20 @@ fn rank(rows: &[Row]) -> Ranking {
     Ranking::from_rows(&rows, RANKED_BY, floor)
 }
 
-fn save_picture(folder: &Path, picture: &Picture) -> Result<(), CaseError> {
+/// Writes a picture as SVG and PNG, and gives it as the report shows it.
+fn save_picture(folder: &Path, picture: &Picture) -> Result<Figure, CaseError> {
+    let wrong = |e: PlotError| failed(picture.name, &e);
     let path = folder.join(picture.name);
-    let svg = picture.drawing.to_svg().map_err(|e| failed(picture.name, &e))?;
-    let png = picture.drawing.to_png().map_err(|e| failed(picture.name, &e))?;
+    let svg = picture.drawing.to_svg().map_err(wrong)?;
+    let png = picture.drawing.to_png().map_err(wrong)?;
     write_file(&path.with_extension("svg"), svg.as_bytes())?;
-    write_file(&path.with_extension("png"), &png)
+    write_file(&path.with_extension("png"), &png)?;
+    let figure = if picture.raster {
+        Figure::of_field
+    } else {
+        Figure::of_lines
+    };
+    figure(picture.title, &picture.caption, &picture.drawing).map_err(wrong)
 }
 
 /// The studies below a folder: it is a case's folder, or holds some.

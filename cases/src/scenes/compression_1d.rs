@@ -18,6 +18,7 @@
 //!   leaves a lasting displacement, which no echo is.
 
 mod column;
+mod paper;
 
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
@@ -173,11 +174,13 @@ const METHODS: &[Overlay] = &[
 pub static INFO: SceneInfo = SceneInfo {
     name: "compression-1d",
     title: "an elastic column struck at its top: the echo of its base",
+    summary: "A block of soil, 50 m wide and high, is struck at its top with half a sine of vertical velocity. The wave runs down, meets the base, and whatever comes back is the base's doing: d'Alembert's solution is exact, so every number has a known truth.",
     source: "S21, section 3.1 (doi 10.1631/jzus.A2000399)",
     fields: &[NUMERICS, BODY, OWN_FIELDS, ELASTIC, PROBES_AND_SIDES],
     profiles: PROFILES,
     presets: PRESETS,
     methods: METHODS,
+    ledger: paper::LEDGER,
     standard: "fixed",
     defaults: scene::defaults::<Compression1d>,
     build: scene::build::<Compression1d>,
