@@ -72,8 +72,10 @@ impl<'a> Checks<'a> {
             "the list is empty; a scene needs a receiver at least".into()
         });
         for (index, receiver) in receivers.iter().enumerate() {
-            for (key, at, size) in [("x_m", receiver.x_m, size[0]), ("y_m", receiver.y_m, size[1])]
-            {
+            for (key, at, size) in [
+                ("x_m", receiver.x_m, size[0]),
+                ("y_m", receiver.y_m, size[1]),
+            ] {
                 let inside = (0.0..=size).contains(&at);
                 self.require(inside, &format!("receivers[{index}].{key}"), || {
                     format!(
@@ -119,7 +121,11 @@ impl<'a> Checks<'a> {
             self.require(inner == 0.0 || inner + other < size[axis], &field, || {
                 format!(
                     "an inner layer of {inner} m{} leaves nothing of the body ({} m)",
-                    if other > 0.0 { " with the opposite one" } else { "" },
+                    if other > 0.0 {
+                        " with the opposite one"
+                    } else {
+                        ""
+                    },
                     size[axis]
                 )
             });
@@ -138,9 +144,7 @@ pub fn number(method: &SideMethod, key: &str) -> Option<f64> {
 /// Thickness of a layer inside the body (m); zero when there is none.
 pub fn inner_thickness(method: &SideMethod) -> f64 {
     match method.params.get("placement") {
-        Some(Value::Text(word)) if word == "inside" => {
-            number(method, "thickness_m").unwrap_or(0.0)
-        }
+        Some(Value::Text(word)) if word == "inside" => number(method, "thickness_m").unwrap_or(0.0),
         _ => 0.0,
     }
 }

@@ -215,9 +215,13 @@ pub fn hint(nearest: &Option<String>) -> String {
 }
 
 fn join(complaints: &[Complaint]) -> String {
-    complaints
-        .iter()
-        .map(Complaint::to_string)
-        .collect::<Vec<_>>()
-        .join("\n")
+    let lines: Vec<String> = complaints.iter().map(Complaint::to_string).collect();
+    match lines.as_slice() {
+        [one] => one.clone(),
+        several => format!(
+            "{} fields are at fault:\n  {}",
+            several.len(),
+            several.join("\n  ")
+        ),
+    }
 }

@@ -62,9 +62,14 @@ impl fmt::Display for Range {
             if self.max_open { "<" } else { "<=" },
         );
         match (self.min.is_finite(), self.max.is_finite()) {
-            (true, true) => write!(f, "{} {left} value {right} {}", self.min, self.max),
-            (true, false) => write!(f, "value {} {}", flip(left), self.min),
-            (false, true) => write!(f, "value {right} {}", self.max),
+            (true, true) => write!(
+                f,
+                "{} {left} value {right} {}",
+                short(self.min),
+                short(self.max)
+            ),
+            (true, false) => write!(f, "value {} {}", flip(left), short(self.min)),
+            (false, true) => write!(f, "value {right} {}", short(self.max)),
             (false, false) => write!(f, "any finite number"),
         }
     }
@@ -73,6 +78,15 @@ impl fmt::Display for Range {
 /// The same relation, read from the other side.
 fn flip(relation: &str) -> &'static str {
     if relation == "<" { ">" } else { ">=" }
+}
+
+/// A number with as many digits as it needs, with a power of ten when it is large or small.
+pub fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
 }
 
 /// What a field may hold.
@@ -147,6 +161,6 @@ mod tests {
     fn ranges_print_as_they_are_read() {
         assert_eq!(Range::POSITIVE.to_string(), "value > 0");
         assert_eq!(Range::inside(-1.0, 0.5).to_string(), "-1 < value < 0.5");
-        assert_eq!(Range::within(0.0, 1.0).to_string(), "0 <= value <= 1");
+        assert_eq!(Range::within(0.0, 1e9).to_string(), "0 <= value <= 1e9");
     }
 }

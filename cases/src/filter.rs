@@ -5,9 +5,23 @@ use anechoic_reports::row::Row;
 
 /// Metrics that rows may hold.
 const METRICS: &[&str] = &[
-    "residual", "echo_ratio", "amplitude_ratio", "echo_level_db", "rel_l2", "peak_error",
-    "peak_deviation", "arrival_s", "energy_left", "cpu_s", "wall_s", "peak_bytes", "steps",
-    "iterations", "unknowns", "points", "us_per_point_step",
+    "residual",
+    "echo_ratio",
+    "amplitude_ratio",
+    "echo_level_db",
+    "rel_l2",
+    "peak_error",
+    "peak_deviation",
+    "arrival_s",
+    "energy_left",
+    "cpu_s",
+    "wall_s",
+    "peak_bytes",
+    "steps",
+    "iterations",
+    "unknowns",
+    "points",
+    "us_per_point_step",
 ];
 
 /// A text that rows are chosen by.
@@ -33,14 +47,17 @@ impl Filter {
         methods: &[&'a str],
         places: &[String],
     ) -> Result<Vec<&'a str>, CaseError> {
-        let named = |method: &&&str| method.contains(&self.0) || self.0.starts_with(&format!("{method}/"));
+        let named =
+            |method: &&&str| method.contains(&self.0) || self.0.starts_with(&format!("{method}/"));
         let chosen: Vec<&str> = methods.iter().filter(named).copied().collect();
         if !chosen.is_empty() && !chosen.iter().any(|m| self.0.starts_with(&format!("{m}/"))) {
             return Ok(chosen);
         }
         let can_match = |method: &str| {
             METRICS.iter().any(|metric| {
-                places.iter().any(|place| self.matches_parts(method, metric, place))
+                places
+                    .iter()
+                    .any(|place| self.matches_parts(method, metric, place))
             })
         };
         let chosen: Vec<&str> = methods.iter().copied().filter(|m| can_match(m)).collect();
@@ -55,7 +72,11 @@ impl Filter {
     /// # Errors
     /// [`CaseError::Filter`] when there is none.
     pub fn choose(&self, rows: &[Row]) -> Result<Vec<Row>, CaseError> {
-        let chosen: Vec<Row> = rows.iter().filter(|row| self.matches(row)).cloned().collect();
+        let chosen: Vec<Row> = rows
+            .iter()
+            .filter(|row| self.matches(row))
+            .cloned()
+            .collect();
         if chosen.is_empty() {
             let methods: Vec<&str> = rows.iter().map(|row| row.method.as_str()).collect();
             return Err(self.nothing(&methods));

@@ -100,7 +100,8 @@ fn series(runs: &[&Run], reference: Option<&Reference>) -> Result<Picture, Pictu
     Ok(Picture {
         name: "receivers",
         title: "Motion of the receivers",
-        caption: "All methods over the reference without echo; what departs from it is echo.".into(),
+        caption: "All methods over the reference without echo; what departs from it is echo."
+            .into(),
         drawing,
         raster: false,
     })
@@ -148,7 +149,11 @@ fn echo(
 
 /// Echo of each method with its cost.
 fn bars(ranking: &Ranking) -> Result<Option<Picture>, PictureError> {
-    let ranked: Vec<_> = ranking.methods.iter().filter(|m| m.echo.is_some()).collect();
+    let ranked: Vec<_> = ranking
+        .methods
+        .iter()
+        .filter(|m| m.echo.is_some())
+        .collect();
     if ranked.is_empty() {
         return Ok(None);
     }
@@ -260,13 +265,19 @@ fn strongest(traces: &Traces) -> usize {
             .fold(0.0_f64, |m, v| m.max(v.abs()))
     };
     let axes = traces.receivers().first().map_or(1, |t| t.components.len());
-    (0..axes).max_by(|&a, &b| peak(a).total_cmp(&peak(b))).unwrap_or(0)
+    (0..axes)
+        .max_by(|&a, &b| peak(a).total_cmp(&peak(b)))
+        .unwrap_or(0)
 }
 
 /// Names and places (m) of the receivers.
 fn receivers(run: &Run) -> Vec<(String, [f64; 2])> {
     let probes = run.prepared.scene.problem().probes;
-    probes.receivers.into_iter().map(|r| (r.name, r.place)).collect()
+    probes
+        .receivers
+        .into_iter()
+        .map(|r| (r.name, r.place))
+        .collect()
 }
 
 /// A receiver's title.
@@ -274,5 +285,8 @@ fn place(run: &Run, name: &str) -> String {
     receivers(run)
         .into_iter()
         .find(|(receiver, _)| receiver == name)
-        .map_or_else(|| name.to_owned(), |(name, [x, y])| format!("{name} (x = {x} m, y = {y} m)"))
+        .map_or_else(
+            || name.to_owned(),
+            |(name, [x, y])| format!("{name} (x = {x} m, y = {y} m)"),
+        )
 }

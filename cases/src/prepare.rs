@@ -75,7 +75,11 @@ impl Target {
                 source,
             })?;
             let header = Header::read(path, &text)?;
-            (scenes::find(&header.case)?, header, Some((path.to_owned(), text)))
+            (
+                scenes::find(&header.case)?,
+                header,
+                Some((path.to_owned(), text)),
+            )
         } else {
             (scenes::find(&request.target)?, Header::default(), None)
         };
@@ -211,7 +215,10 @@ impl Prepared {
     /// First 16 hexadecimal digits of the SHA-256 of the canonical text.
     pub fn hash(&self) -> String {
         let digest = Sha256::digest(self.canonical().as_bytes());
-        digest[..8].iter().map(|byte| format!("{byte:02x}")).collect()
+        digest[..8]
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect()
     }
 }
 

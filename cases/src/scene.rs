@@ -49,6 +49,9 @@ pub struct Window {
     pub from_s: f64,
     /// End (s), included; `None`: the end of the run.
     pub to_s: Option<f64>,
+    /// Evidence and its name, where a paper says what is accepted in this window; `None`: that of
+    /// the reference.
+    pub stated_by: Option<(Evidence, &'static str)>,
 }
 
 impl Window {

@@ -1,6 +1,6 @@
 //! A scene as the TOML file that a user edits: every field with its unit, meaning and range.
 
-use crate::field::{Field, Kind};
+use crate::field::{Field, Kind, Range};
 use crate::prepare::Prepared;
 use anechoic_solver::boundary::{METHODS, ParamKind};
 use std::fmt::Write;
@@ -16,14 +16,19 @@ pub fn write(prepared: &Prepared) -> String {
         prepared.info.name,
         prepared.profile
     );
+    // The step is the only field that a scene derives.
+    let dt = prepared.scene.problem().dt;
     let fields = prepared.info.all_fields();
     for field in fields.iter().filter(|f| !f.path.contains('.')) {
         if field.kind != Kind::Receivers {
-            line(&mut text, field, field.path, &prepared.table);
+            line(&mut text, field, field.path, &prepared.table, dt);
         }
     }
     let mut groups: Vec<&str> = Vec::new();
-    for group in fields.iter().filter_map(|f| Some(f.path.split_once('.')?.0)) {
+    for group in fields
+        .iter()
+        .filter_map(|f| Some(f.path.split_once('.')?.0))
+    {
         if !groups.contains(&group) {
             groups.push(group);
         }
@@ -34,7 +39,7 @@ pub fn write(prepared: &Prepared) -> String {
             if let Some((_, key)) = field.path.split_once('.').filter(|(g, _)| *g == group)
                 && let Some(Value::Table(values)) = prepared.table.get(group)
             {
-                line(&mut text, field, key, values);
+                line(&mut text, field, key, values, dt);
             }
         }
     }
@@ -43,8 +48,9 @@ pub fn write(prepared: &Prepared) -> String {
     text
 }
 
-/// `key = value  # what it is; what is allowed`, or the same as a comment for what is left out.
-fn line(text: &mut String, field: &Field, key: &str, values: &Table) {
+/// `key = value  # what it is; what is allowed`, or the same as a comment for what is left out,
+/// with the value that it has then.
+fn line(text: &mut String, field: &Field, key: &str, values: &Table, derived: f64) {
     let allowed = match field.kind {
         Kind::Number(range) | Kind::OptionalNumber(range, _) => format!("; {range}"),
         Kind::Whole(min, max) => format!("; {min} <= value <= {max}"),
@@ -57,7 +63,11 @@ fn line(text: &mut String, field: &Field, key: &str, values: &Table) {
             writeln!(text, "{key} = {value}  # {}{allowed}", field.doc)
         }
         (None, Kind::OptionalNumber(_, when_absent)) => {
-            writeln!(text, "# {key} = 0.0  # {}{allowed}; {when_absent}", field.doc)
+            writeln!(
+                text,
+                "# {key} = {derived:?}  # {}{allowed}; {when_absent}",
+                field.doc
+            )
         }
         (None, _) => Ok(()),
     };
@@ -75,6 +85,8 @@ fn inline(value: &Value) -> String {
                 .collect();
             format!("{{ {} }}", parts.join(", "))
         }
+        // TOML wants a point or a power in every number that is not whole.
+        Value::Float(x) => format!("{x:?}"),
         other => other.to_string(),
     }
 }
@@ -89,7 +101,7 @@ fn receivers(text: &mut String, table: &Table) {
         text.push_str("\n[[receivers]]\n");
         for key in ["name", "x_m", "y_m"] {
             if let Some(value) = receiver.get(key) {
-                let _ = writeln!(text, "{key} = {value}");
+                let _ = writeln!(text, "{key} = {}", inline(value));
             }
         }
     }
@@ -102,9 +114,15 @@ fn methods() -> String {
         let _ = writeln!(text, "#   {}: {}", method.name, method.summary);
         for param in method.params {
             let allowed = match param.kind {
-                ParamKind::Number { unit, default, min, max } => {
+                ParamKind::Number {
+                    unit,
+                    default,
+                    min,
+                    max,
+                } => {
                     let default = default.map_or(String::new(), |d| format!(", {d} by default"));
-                    format!("{min} <= value <= {max} {unit}{default}")
+                    let unit = if unit == "1" { "" } else { unit };
+                    format!("{} {unit}{default}", Range::within(min, max)).replace(" ,", ",")
                 }
                 ParamKind::Choice(words) => format!("{} (first: default)", words.join(", ")),
             };

@@ -72,8 +72,14 @@ pub fn publish(folder: &Path, runs: Vec<Run>, command: &str) -> Result<Published
     write_file(&folder.join(STUDY), &json(&file)?)?;
     let text = |what: &str, made: Result<String, _>| made.map_err(|e| failed(what, &e));
     for (name, made) in [
-        ("summary.json", text("summary.json", summary_json(&judged.rows))?),
-        ("summary.csv", text("summary.csv", summary_csv(&judged.rows))?),
+        (
+            "summary.json",
+            text("summary.json", summary_json(&judged.rows))?,
+        ),
+        (
+            "summary.csv",
+            text("summary.csv", summary_csv(&judged.rows))?,
+        ),
         ("junit.xml", text("junit.xml", junit_xml(&judged.rows))?),
     ] {
         write_file(&folder.join(name), made.as_bytes())?;
@@ -141,7 +147,11 @@ fn describe(
 
 /// Ranks the methods; the floor is what an extended domain leaves, which has no boundary to blame.
 fn rank(rows: &[Row]) -> Ranking {
-    let rows: Vec<Row> = rows.iter().filter(|row| row.method != REFERENCE).cloned().collect();
+    let rows: Vec<Row> = rows
+        .iter()
+        .filter(|row| row.method != REFERENCE)
+        .cloned()
+        .collect();
     let unbounded = Ranking::from_rows(&rows, RANKED_BY, None);
     let floor = unbounded
         .methods

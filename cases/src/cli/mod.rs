@@ -56,7 +56,11 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
         }) => {
             let studies = commands::report(folder, filter.as_deref())?;
             print::out(&print::results(&studies, *format)?);
-            return Ok(studies.iter().map(Finished::exit_code).max().unwrap_or(exit::PASS));
+            return Ok(studies
+                .iter()
+                .map(Finished::exit_code)
+                .max()
+                .unwrap_or(exit::PASS));
         }
     }
     Ok(exit::PASS)

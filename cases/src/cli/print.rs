@@ -3,6 +3,7 @@
 use super::args::Format;
 use crate::commands::{Finished, Plan};
 use crate::error::CaseError;
+use crate::field::short;
 use crate::prepare::Prepared;
 use crate::scene::{Overlay, SceneInfo};
 use crate::store;
@@ -62,7 +63,11 @@ pub fn list(scenes: &[&SceneInfo], format: Format) -> Result<String, CaseError> 
     }
     let mut text = String::from("Cases\n");
     for scene in scenes {
-        let _ = writeln!(text, "  {}: {}\n      {}", scene.name, scene.title, scene.source);
+        let _ = writeln!(
+            text,
+            "  {}: {}\n      {}",
+            scene.name, scene.title, scene.source
+        );
         for (kind, overlays) in [
             ("profiles", scene.profiles),
             ("presets", scene.presets),
@@ -125,13 +130,26 @@ pub fn show(prepared: &Prepared, format: Format) -> Result<String, CaseError> {
                 next.map(Some)
             });
         if let Some(Some(value)) = value {
-            let _ = writeln!(text, "  {:<24} {:<28} {}", field.path, one_line(value), field.doc);
+            let _ = writeln!(
+                text,
+                "  {:<24} {:<28} {}",
+                field.path,
+                one_line(value),
+                field.doc
+            );
         }
     }
     text.push_str("\nEchoes are looked for\n");
     for window in windows {
-        let end = window.to_s.map_or("the end".to_owned(), |to| format!("{to} s"));
-        let _ = writeln!(text, "  {:<8} from {:.4} s to {end}", window.place(), window.from_s);
+        let end = window
+            .to_s
+            .map_or("the end".to_owned(), |to| format!("{to} s"));
+        let _ = writeln!(
+            text,
+            "  {:<8} from {:.4} s to {end}",
+            window.place(),
+            window.from_s
+        );
     }
     let _ = write!(
         text,
@@ -222,7 +240,11 @@ pub fn incomplete(finished: &Finished) -> String {
             Status::Cancelled => "stopped before its end".to_owned(),
             Status::Failed(error) => format!("failed: {error}"),
         };
-        let _ = writeln!(text, "{}: {how}; what stands is stored", run.manifest.method);
+        let _ = writeln!(
+            text,
+            "{}: {how}; what stands is stored",
+            run.manifest.method
+        );
     }
     text
 }
@@ -231,7 +253,10 @@ pub fn incomplete(finished: &Finished) -> String {
 fn one_line(value: &toml::Value) -> String {
     match value {
         toml::Value::Table(side) => {
-            let method = side.get("method").and_then(toml::Value::as_str).unwrap_or("");
+            let method = side
+                .get("method")
+                .and_then(toml::Value::as_str)
+                .unwrap_or("");
             let others: Vec<String> = side
                 .iter()
                 .filter(|(key, _)| *key != "method")
@@ -246,10 +271,16 @@ fn one_line(value: &toml::Value) -> String {
         toml::Value::Array(list) => {
             let text = |r: &toml::Value| {
                 let get = |key| r.get(key).map_or(String::new(), ToString::to_string);
-                format!("{} ({}, {})", get("name").trim_matches('"'), get("x_m"), get("y_m"))
+                format!(
+                    "{} ({}, {})",
+                    get("name").trim_matches('"'),
+                    get("x_m"),
+                    get("y_m")
+                )
             };
             list.iter().map(text).collect::<Vec<_>>().join(", ")
         }
+        toml::Value::Float(x) => short(*x),
         other => other.to_string().trim_matches('"').to_owned(),
     }
 }

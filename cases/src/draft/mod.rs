@@ -187,7 +187,10 @@ impl Draft {
             .filter(|f| f.path.starts_with(&prefix))
             .map(|f| f.path)
             .collect();
-        format!("is a group, not a value; its fields: {}", members.join(", "))
+        format!(
+            "is a group, not a value; its fields: {}",
+            members.join(", ")
+        )
     }
 
     fn origin(&self, path: &str) -> Origin {

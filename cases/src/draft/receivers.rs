@@ -51,7 +51,11 @@ impl Draft {
             }
             for key in ["name", "x_m", "y_m"] {
                 if !table.contains_key(key) {
-                    self.complain(here.clone(), &format!("{path}[{index}]"), format!("has no {key}"));
+                    self.complain(
+                        here.clone(),
+                        &format!("{path}[{index}]"),
+                        format!("has no {key}"),
+                    );
                 }
             }
             list.push(Value::Table(receiver));
@@ -66,7 +70,10 @@ impl Draft {
             Ok(value) => value,
             Err(message) => return self.complain(origin, &path, message),
         };
-        let list = self.table.get_mut("receivers").and_then(Value::as_array_mut);
+        let list = self
+            .table
+            .get_mut("receivers")
+            .and_then(Value::as_array_mut);
         let found = list.and_then(|list| {
             list.iter_mut()
                 .enumerate()

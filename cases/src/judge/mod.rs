@@ -144,7 +144,13 @@ impl Subject<'_> {
         for (metric, norm) in norms {
             let scores = self.pair().and_then(|(run, truth)| norm(run, truth));
             let scores = scores.and_then(|scores| with_groups(&scores));
-            numbers.extend(measurements(self.method, metric, "1", self.against(), scores));
+            numbers.extend(measurements(
+                self.method,
+                metric,
+                "1",
+                self.against(),
+                scores,
+            ));
         }
         if let (true, Ok((run, truth))) = (self.reference.pulses, self.pair()) {
             numbers.extend(arrivals::measure(self.method, self.against(), run, truth));
@@ -158,23 +164,35 @@ impl Subject<'_> {
                 let (run, truth) = (cut(run, window)?, cut(truth, window)?);
                 residual(&run, &truth, amplitude, &Onset::Same(window.from_s))
             });
-            numbers.push(self.at(&window.place(), "residual", "1", score));
+            let mut number = self.at(&window.place(), "residual", "1", score);
+            if let Some((evidence, name)) = window.stated_by {
+                number.against = Some((evidence, name.to_owned()));
+            }
+            numbers.push(number);
         }
         let level = self
             .pair()
             .and_then(|(run, truth)| with_groups_db(&echo_level_db(run, truth)?));
-        numbers.extend(measurements(self.method, "echo_level_db", "dB", self.against(), level));
+        numbers.extend(measurements(
+            self.method,
+            "echo_level_db",
+            "dB",
+            self.against(),
+            level,
+        ));
         for window in windows.iter().filter(|window| window.label.is_empty()) {
             let onset = Onset::Same(window.from_s);
-            let with_standard = |norm: &dyn Fn(&Traces, &Traces, &Traces) -> Result<Vec<Score>, NormError>| {
-                let (run, truth) = self.pair()?;
-                let standard = self.standard(window)?;
-                norm(&cut(run, window)?, &cut(truth, window)?, &standard)
-            };
+            let with_standard =
+                |norm: &dyn Fn(&Traces, &Traces, &Traces) -> Result<Vec<Score>, NormError>| {
+                    let (run, truth) = self.pair()?;
+                    let standard = self.standard(window)?;
+                    norm(&cut(run, window)?, &cut(truth, window)?, &standard)
+                };
             if self.standard.is_none() {
                 continue;
             }
-            let echo = with_standard(&|run, truth, standard| echo_ratio(run, truth, standard, &onset));
+            let echo =
+                with_standard(&|run, truth, standard| echo_ratio(run, truth, standard, &onset));
             numbers.push(self.at(&window.place(), "echo_ratio", "1", echo));
             let ratio = with_standard(&|run, _, standard| amplitude_ratio(run, standard, &onset));
             numbers.push(self.at(&window.place(), "amplitude_ratio", "1", ratio));

@@ -182,22 +182,30 @@ pub fn load(folder: &Path) -> Result<Run, CaseError> {
     })
 }
 
-/// Writes a file beside its place and renames it.
+/// Writes a file beside its place and renames it, so that it is whole or not there.
 ///
 /// # Errors
 /// [`CaseError::Storage`].
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CaseError> {
-    let failed = |source| CaseError::Storage {
-        path: path.to_owned(),
-        source,
+    let mut partial = path.as_os_str().to_owned();
+    partial.push(".partial");
+    let partial = Path::new(&partial);
+    let write = || {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        std::fs::create_dir_all(folder)?;
+        let mut file = std::fs::File::create(partial)?;
+        file.write_all(bytes)?;
+        file.sync_data()?;
+        std::fs::rename(partial, path)
     };
-    let folder = path.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(failed)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    file.write_all(bytes).map_err(failed)?;
-    file.as_file().sync_data().map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
+    write().map_err(|source| {
+        // What is half written serves nobody; that it cannot be removed either adds nothing.
+        let _ = std::fs::remove_file(partial);
+        CaseError::Storage {
+            path: path.to_owned(),
+            source,
+        }
+    })
 }
 
 /// Reads a JSON file.

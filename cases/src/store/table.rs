@@ -61,14 +61,21 @@ pub fn write(table: &SeriesTable) -> Result<Vec<u8>, CaseError> {
         )));
     }
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let names = heads(table).iter().map(ColumnHead::header).collect::<Vec<_>>();
+    let names = heads(table)
+        .iter()
+        .map(ColumnHead::header)
+        .collect::<Vec<_>>();
     writer
         .write_record(std::iter::once("t_s".to_owned()).chain(names))
         .map_err(|error| failed(error.to_string()))?;
     for (row, time) in table.times.iter().enumerate() {
         let values = table.columns.iter().map(|column| column.values[row]);
         writer
-            .write_record(std::iter::once(*time).chain(values).map(|x| format!("{x:?}")))
+            .write_record(
+                std::iter::once(*time)
+                    .chain(values)
+                    .map(|x| format!("{x:?}")),
+            )
             .map_err(|error| failed(error.to_string()))?;
     }
     writer
@@ -86,7 +93,9 @@ pub fn read(path: &Path, heads: &[ColumnHead]) -> Result<SeriesTable, CaseError>
         reason,
     };
     let mut reader = csv::Reader::from_path(path).map_err(|error| failed(error.to_string()))?;
-    let found = reader.headers().map_err(|error| failed(error.to_string()))?;
+    let found = reader
+        .headers()
+        .map_err(|error| failed(error.to_string()))?;
     let wanted: Vec<String> = std::iter::once("t_s".to_owned())
         .chain(heads.iter().map(ColumnHead::header))
         .collect();

@@ -35,15 +35,17 @@ pub(super) fn windows(scene: &Compression1d, receiver: &ReceiverSpec) -> Vec<Win
     } else {
         echo + (1.0 + TAIL) * pulse
     };
-    let window = |label: &str, from_s, to_s| Window {
+    let window = |label: &str, from_s, to_s, stated_by| Window {
         receiver: receiver.name.clone(),
         label: label.to_owned(),
         from_s,
         to_s,
+        stated_by,
     };
-    let mut windows = vec![window("", from_s, None)];
+    let mut windows = vec![window("", from_s, None, None)];
     if scene.time.end_s >= 4.0 {
-        windows.push(window("3-4s", 3.0, Some(4.0)));
+        let paper = (Evidence::Paper, "S21 section 3.1");
+        windows.push(window("3-4s", 3.0, Some(4.0), Some(paper)));
     }
     windows
 }
