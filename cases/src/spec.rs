@@ -2,8 +2,8 @@
 
 use crate::field::{Field, Kind, Range};
 use anechoic_solver::boundary::SideMethod;
-use anechoic_solver::probe::Receiver;
-use anechoic_solver::problem::{Elastic, PointMode, Scheme, SolverKind, Transfer};
+use anechoic_solver::probe::{LineProbe, Receiver};
+use anechoic_solver::problem::{Aabb, Elastic, PointMode, Scheme, SolverKind, Transfer};
 use serde::{Deserialize, Serialize};
 
 /// Background grid.
@@ -13,13 +13,40 @@ pub struct GridSpec {
     pub h_m: f64,
 }
 
-/// A rectangular body.
+/// A rectangular body with its lower left corner at the origin.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodySpec {
     /// Width (m).
     pub width_m: f64,
     /// Height (m).
     pub height_m: f64,
+}
+
+impl BodySpec {
+    /// Width and height (m).
+    pub fn size(&self) -> [f64; 2] {
+        [self.width_m, self.height_m]
+    }
+
+    /// The solver's box.
+    pub fn target(&self) -> Aabb<2> {
+        Aabb {
+            lower: [0.0; 2],
+            upper: self.size(),
+        }
+    }
+
+    /// Vertical velocity along the middle from bottom to top, every so many steps.
+    pub fn middle_line(&self, every: usize) -> LineProbe<2> {
+        let x = 0.5 * self.width_m;
+        LineProbe {
+            from: [x, 0.0],
+            to: [x, self.height_m],
+            samples: 101,
+            component: 1,
+            every,
+        }
+    }
 }
 
 /// Time integration.

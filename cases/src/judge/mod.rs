@@ -180,31 +180,36 @@ impl Subject<'_> {
             self.against(),
             level,
         ));
+        if self.standard.is_none() {
+            return;
+        }
         for window in windows.iter().filter(|window| window.label.is_empty()) {
             let onset = Onset::Same(window.from_s);
-            let with_standard =
-                |norm: &dyn Fn(&Traces, &Traces, &Traces) -> Result<Vec<Score>, NormError>| {
-                    let (run, truth) = self.pair()?;
-                    let standard = self.standard(window)?;
-                    norm(&cut(run, window)?, &cut(truth, window)?, &standard)
-                };
-            if self.standard.is_none() {
-                continue;
+            let series = self.pair().and_then(|(run, truth)| {
+                Ok((
+                    cut(run, window)?,
+                    cut(truth, window)?,
+                    self.standard(window)?,
+                ))
+            });
+            let series = series.as_ref().map_err(NormError::clone);
+            let echo = series
+                .clone()
+                .and_then(|(run, truth, standard)| echo_ratio(run, truth, standard, &onset));
+            let ratio =
+                series.and_then(|(run, _, standard)| amplitude_ratio(run, standard, &onset));
+            for (metric, scores) in [("echo_ratio", echo), ("amplitude_ratio", ratio)] {
+                numbers.push(self.at(&window.place(), metric, "1", scores));
             }
-            let echo =
-                with_standard(&|run, truth, standard| echo_ratio(run, truth, standard, &onset));
-            numbers.push(self.at(&window.place(), "echo_ratio", "1", echo));
-            let ratio = with_standard(&|run, _, standard| amplitude_ratio(run, standard, &onset));
-            numbers.push(self.at(&window.place(), "amplitude_ratio", "1", ratio));
         }
     }
 
     /// What a perfect absorber scores in the amplitude ratio.
     fn floor(&self, windows: &[Window], numbers: &mut Vec<Measurement>) {
+        if self.standard.is_none() {
+            return;
+        }
         for window in windows.iter().filter(|window| window.label.is_empty()) {
-            if self.standard.is_none() {
-                continue;
-            }
             let score = self.pair().and_then(|(_, truth)| {
                 let onset = Onset::Same(window.from_s);
                 amplitude_ratio(&cut(truth, window)?, &self.standard(window)?, &onset)

@@ -65,7 +65,13 @@ pub(super) fn references(scene: &Compression1d, times: &[f64]) -> Result<Vec<Ref
             ));
         }
     }
-    let mut references = vec![series(scene, times, "dalembert-no-echo", Role::NoEcho, Base::Absorbing)?];
+    let mut references = vec![series(
+        scene,
+        times,
+        "dalembert-no-echo",
+        Role::NoEcho,
+        Base::Absorbing,
+    )?];
     if let Some(base) = base(&sides.bottom) {
         references.push(series(scene, times, "dalembert", Role::Modelled, base)?);
     }
@@ -76,7 +82,9 @@ pub(super) fn references(scene: &Compression1d, times: &[f64]) -> Result<Vec<Ref
 fn base(bottom: &SideMethod) -> Option<Base> {
     match bottom.method.as_str() {
         "roller" | "fixed" => Some(Base::Roller),
-        "free" => Some(Base::Dashpot { impedance_ratio: 0.0 }),
+        "free" => Some(Base::Dashpot {
+            impedance_ratio: 0.0,
+        }),
         "dashpot" => Some(Base::Dashpot {
             impedance_ratio: number(bottom, "impedance").unwrap_or(1.0),
         }),
@@ -138,12 +146,47 @@ pub(super) fn claims(scene: &Compression1d) -> Vec<SceneClaim> {
             });
         };
         let analytic = Evidence::Analytic;
-        claim("fixed", "peak_deviation", at, 0.03, analytic, "peaks of the pulse and its echoes at h = 1 m: about 40 cells a pulse, whose kinks carry the rest");
-        claim("fixed", "arrival_s", at, 0.02, analytic, "four steps of 0.005 s, a third of the time a wave needs for a cell");
-        claim("dashpot", "residual", at, 0.01, analytic, "a dashpot is exact in 1D; what is left is dispersion of the half sine's kinks");
-        claim("extended", "residual", at, 0.01, analytic, "nothing comes back before the end: dispersion alone, bounded as for the dashpot");
+        claim(
+            "fixed",
+            "peak_deviation",
+            at,
+            0.03,
+            analytic,
+            "peaks of the pulse and its echoes at h = 1 m: about 40 cells a pulse, whose kinks carry the rest",
+        );
+        claim(
+            "fixed",
+            "arrival_s",
+            at,
+            0.02,
+            analytic,
+            "four steps of 0.005 s, a third of the time a wave needs for a cell",
+        );
+        claim(
+            "dashpot",
+            "residual",
+            at,
+            0.01,
+            analytic,
+            "a dashpot is exact in 1D; what is left is dispersion of the half sine's kinks",
+        );
+        claim(
+            "extended",
+            "residual",
+            at,
+            0.01,
+            analytic,
+            "nothing comes back before the end: dispersion alone, bounded as for the dashpot",
+        );
         for method in ["dashpot", "damping-layer"] {
-            claim(method, "residual", &format!("{at}:3-4s"), 0.15, Evidence::Paper, "S21 section 3.1: below 15 % of the pulse at t = 3 s");
+            claim(
+                method,
+                "residual",
+                &format!("{at}:3-4s"),
+                0.15,
+                Evidence::Paper,
+                "S21 section 3.1: below 15 % of the pulse at t = 3 s",
+            );
         }
     }
     claims
@@ -161,7 +204,12 @@ fn not_here(scene: &Compression1d, receiver: &ReceiverSpec, evidence: Evidence) 
     let c = scene.material.elastic().p_speed();
     if evidence == Evidence::Paper {
         let papers = (c / PAPER_SPEED - 1.0).abs() < 0.01 && scene.body.height_m == 50.0;
-        return (!papers).then(|| format!("the paper's times hold for 63 m/s and 50 m, not for {c:.1} m/s and {} m", scene.body.height_m));
+        return (!papers).then(|| {
+            format!(
+                "the paper's times hold for 63 m/s and 50 m, not for {c:.1} m/s and {} m",
+                scene.body.height_m
+            )
+        });
     }
     let (h, dt, strain) = (scene.grid.h_m, scene.dt(), scene.source.amplitude_m_s / c);
     if scene.points.mode == PointMode::Moving && strain > LINEAR_STRAIN {
