@@ -36,9 +36,9 @@ fn says(text: &str, words: &[&str]) {
 
 /// A file with the text; the folder is removed at the end of the test.
 fn file(text: &str) -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("my.toml");
-    std::fs::write(&path, text).unwrap();
+    std::fs::write(&path, text).expect("a file in it");
     (folder, path)
 }
 
