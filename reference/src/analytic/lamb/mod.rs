@@ -21,13 +21,13 @@
 //! ```
 //!
 //! over the imaginary axis; a, b are the slownesses of P and S, eta_q = sqrt(q^2 - p^2). P and S hold
-//! no s ([`spectrum`]), so bending the path to where the exponent's bracket is a real time t reads the
+//! no s (spectrum.rs), so bending the path to where the exponent's bracket is a real time t reads the
 //! inverse transform off: the response to an impulse is Im(P dp/dt)/pi + Im(S dp/dt)/pi. The response
 //! to a force history is its convolution.
 //!
 //! **Quadrature.** dp/dt is infinite like 1/sqrt(t - t_c) at an arrival t_c; t = t_c cosh(xi) takes
 //! that away and leaves dp = i eta dxi. Panels of Gauss points shrink towards every branch point and
-//! pole near the path ([`kernel`]), at depth 0 the Rayleigh pole is taken as a principal value and half
+//! pole near the path (kernel.rs); at depth 0 the Rayleigh pole is taken as a principal value and half
 //! a residue. The kernel is a list of delays and weights: made once, summed for any force and time.
 
 mod kernel;
@@ -84,8 +84,10 @@ pub struct Response {
 impl Response {
     /// Receiver at `offset` x (m, either sign) and `depth` (m, from 0), for times up to `end` (s).
     ///
-    /// `panel` (s) is a time over which the force is smooth, the longest panel of the quadrature: a
-    /// quarter of the dominant period is enough for a Ricker wavelet, a tenth where a force has kinks.
+    /// `panel` (s) is a time over which the force is smooth, the longest panel of the quadrature. A
+    /// quarter of the dominant period serves a Ricker wavelet to its own first jump (1e-8); a force
+    /// with kinks wants less (one full sine of 0.5 s at the scene's receivers: 2e-3 of the largest
+    /// displacement with panels of 0.05 s, 7e-5 with 0.02 s).
     /// A depth below 1e-6 of the offset counts as 0.
     pub fn new(
         material: &Elastic,
