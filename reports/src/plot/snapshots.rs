@@ -14,6 +14,9 @@ const GAP: f64 = 20.0;
 const TOP: f64 = 26.0;
 const FOOT: f64 = 40.0;
 
+/// Smallest and largest value.
+type Range = (f64, f64);
+
 /// Magnitude of a vector field on a lattice of the x-y plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
@@ -140,7 +143,7 @@ impl SnapshotPlot {
         self.rows.iter().flat_map(|(_, fields)| fields)
     }
 
-    fn extent(&self) -> ((f64, f64), (f64, f64)) {
+    fn extent(&self) -> (Range, Range) {
         let range = |pick: fn(&Field) -> &Vec<f64>| {
             self.fields()
                 .flat_map(pick)
