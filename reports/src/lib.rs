@@ -1,5 +1,29 @@
 //! From records to norms, verdicts, tables, pictures and the report.
 //!
+//! ```text
+//! record ──► norms ──► judge ──► rows ──► ranking ──► table, export   (terminal, other programs)
+//!    │                            └────────┴────┐
+//!    └─────► plot ──► figures ──► study ◄───────┘──► html             (people)
+//! ```
+//!
+//! - [`norms`]: every metric as a pure function of records and references.
+//! - [`judge`](mod@judge): from measurements and claims to rows with verdicts.
 //! - [`row`]: the flat rows that everything ends in.
+//! - [`ranking`]: methods by their echo, cost beside it, down to the floor of the reference.
+//! - [`table`], [`export`]: rows for the terminal and for other programs.
+//! - [`plot`]: pictures as SVG and PNG, one file a kind.
+//! - [`study`]: everything that a report shows, as data; [`provenance`]: where a result comes from.
+//! - [`html`]: the report as one self-contained page.
+//! - [`format`](mod@format): numbers as readers want them.
 
+pub mod export;
+pub mod format;
+pub mod html;
+pub mod judge;
+pub mod norms;
+pub mod plot;
+pub mod provenance;
+pub mod ranking;
 pub mod row;
+pub mod study;
+pub mod table;

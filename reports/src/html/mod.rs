@@ -1,0 +1,201 @@
+//! The report: one self-contained page that works offline.
+
+mod tables;
+
+use crate::format;
+use crate::judge::{Tally, verifies};
+use crate::row::Row;
+use crate::study::{Figure, Image, Study};
+use anechoic_solver::record::Status;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+const STYLE: &str = include_str!("style.css");
+
+/// The page of a study.
+pub fn report(study: &Study) -> String {
+    page(study).into_string()
+}
+
+fn page(study: &Study) -> Markup {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (study.title) " – anechoic" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                main {
+                    (header(study))
+                    (unfinished(study))
+                    (verdicts(study))
+                    (ranking(study))
+                    (figures(&study.figures))
+                    (ledger(study))
+                    (runs(study))
+                    (measurements(study))
+                }
+            }
+        }
+    }
+}
+
+fn header(study: &Study) -> Markup {
+    html! {
+        header {
+            h1 { (study.title) }
+            ul.facts {
+                li { "case " code { (study.case) } }
+                li { "profile " code { (study.profile) } }
+                li { (study.runs.len()) " runs" }
+            }
+            @if !study.summary.is_empty() { p { (study.summary) } }
+            p { "Made by " code { (study.command) } }
+        }
+    }
+}
+
+/// Runs that failed or were stopped, before anything that was computed from the others.
+fn unfinished(study: &Study) -> Markup {
+    let runs: Vec<_> = study
+        .runs
+        .iter()
+        .filter(|run| run.status != Status::Complete)
+        .collect();
+    html! {
+        @if !runs.is_empty() {
+            div.alarm role="alert" {
+                p { strong { "Not all runs are complete." } }
+                @for run in runs {
+                    p { strong { (run.method) } ": " (tables::status_text(&run.status)) }
+                }
+            }
+        }
+    }
+}
+
+fn verdicts(study: &Study) -> Markup {
+    let claims: Vec<&Row> = study.rows.iter().filter(|r| r.verdict.is_some()).collect();
+    let (verification, other): (Vec<&Row>, Vec<&Row>) =
+        claims.into_iter().partition(|row| verifies(row));
+    html! {
+        section {
+            h2 { "Verdicts" }
+            @if verification.is_empty() {
+                p { "No claim of this study rests on a reference that verifies." }
+            } @else {
+                (tally(&verification))
+                p.soft {
+                    "Verification: against closed forms (analytic), other codes (independent), or the \
+                     same scheme on a domain too large to echo (certified)."
+                }
+                (tables::verdicts(&verification))
+            }
+            @if !other.is_empty() {
+                h3 { "Comparisons that do not verify" }
+                p.soft {
+                    "Against numbers printed in papers, or earlier results of this program."
+                }
+                (tables::verdicts(&other))
+            }
+        }
+    }
+}
+
+fn tally(rows: &[&Row]) -> Markup {
+    let tally = Tally::of(rows.iter().copied());
+    html! {
+        ul.tally {
+            @if tally.pass > 0 { li.pass { (tally.pass) " pass" } }
+            @if tally.fail > 0 { li.fail { (tally.fail) " fail" } }
+            @if tally.not_evaluated > 0 { li.open { (tally.not_evaluated) " not evaluated" } }
+        }
+    }
+}
+
+fn ranking(study: &Study) -> Markup {
+    html! {
+        @if let Some(ranking) = &study.ranking {
+            section {
+                h2 { "Ranking by " code { (ranking.metric) } }
+                @match &ranking.floor {
+                    Some(floor) => p.soft {
+                        "Floor of the reference: " (format::number(floor.value)) " (" (floor.how)
+                        "). Methods at or below it tie (=)."
+                    },
+                    None => p.soft { "The floor of the reference is not known." },
+                }
+                (tables::ranking(ranking))
+            }
+        }
+    }
+}
+
+fn figures(figures: &[Figure]) -> Markup {
+    html! {
+        @if !figures.is_empty() {
+            section {
+                h2 { "Pictures" }
+                @for figure in figures { (picture(figure)) }
+            }
+        }
+    }
+}
+
+fn picture(figure: &Figure) -> Markup {
+    html! {
+        figure {
+            @match &figure.image {
+                Image::Svg(svg) => div.picture role="img" aria-label=(figure.title) {
+                    (PreEscaped(svg))
+                },
+                Image::Png { bytes, width } => div.picture {
+                    img alt=(figure.title) width=(width)
+                        src={ "data:image/png;base64," (STANDARD.encode(bytes)) };
+                },
+            }
+            figcaption { strong { (figure.title) "." } " " (figure.caption) }
+        }
+    }
+}
+
+fn ledger(study: &Study) -> Markup {
+    html! {
+        @if !study.ledger.is_empty() {
+            section {
+                h2 { "Against the source" }
+                (tables::ledger(&study.ledger))
+            }
+        }
+    }
+}
+
+fn runs(study: &Study) -> Markup {
+    html! {
+        @if !study.runs.is_empty() {
+            section {
+                h2 { "Runs" }
+                h3 { "Cost" }
+                (tables::cost(&study.runs))
+                h3 { "Provenance" }
+                (tables::provenance(&study.runs))
+            }
+        }
+    }
+}
+
+fn measurements(study: &Study) -> Markup {
+    let rows: Vec<&Row> = study.rows.iter().filter(|r| r.verdict.is_none()).collect();
+    html! {
+        @if !rows.is_empty() {
+            details {
+                summary { (rows.len()) " more numbers that no claim asks for" }
+                (tables::measurements(&rows))
+            }
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! Aligned tables for the terminal.
+
+use crate::format;
+use crate::ranking::{Ranked, Ranking};
+use crate::row::{Row, Verdict};
+use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
+
+/// The claims among `rows` with their verdicts; failures say why the bound is what it is.
+pub fn verdict_table(rows: &[Row]) -> String {
+    let mut table = new_table(&[
+        "verdict",
+        "method",
+        "metric",
+        "where",
+        "value",
+        "accepted",
+        "evidence",
+        "reference",
+    ]);
+    align_right(&mut table, &[4, 5]);
+    let mut notes = String::new();
+    for row in rows {
+        let Some(verdict) = row.verdict else { continue };
+        let accept = row.accept.as_ref().map_or_else(String::new, format::accept);
+        table.add_row([
+            verdict_name(verdict).to_owned(),
+            row.method.clone(),
+            row.metric.clone(),
+            row.place.clone(),
+            value_text(row),
+            accept,
+            row.evidence.clone(),
+            row.reference.clone(),
+        ]);
+        if verdict != Verdict::Pass {
+            notes += &format!(
+                "{}: {} {} {}: {}\n",
+                verdict_name(verdict),
+                row.method,
+                row.metric,
+                row.place,
+                row.why
+            );
+        }
+    }
+    finish(&table, &notes)
+}
+
+/// The measurements among `rows`: numbers that no claim asks for.
+pub fn measurement_table(rows: &[Row]) -> String {
+    let mut table = new_table(&["method", "metric", "where", "value"]);
+    align_right(&mut table, &[3]);
+    for row in rows.iter().filter(|row| row.verdict.is_none()) {
+        let value = match row.value {
+            Some(_) => value_text(row),
+            None => row.why.clone(),
+        };
+        table.add_row([
+            row.method.clone(),
+            row.metric.clone(),
+            row.place.clone(),
+            value,
+        ]);
+    }
+    finish(&table, "")
+}
+
+/// Methods by their echo with the cost beside it, and the floor below.
+pub fn ranking_table(ranking: &Ranking) -> String {
+    let mean = format!("{} (mean)", ranking.metric);
+    let mut table = new_table(&[
+        "rank", "method", &mean, "worst", "CPU s", "unknowns", "memory",
+    ]);
+    align_right(&mut table, &[0, 2, 3, 4, 5, 6]);
+    for method in &ranking.methods {
+        table.add_row(ranking_cells(ranking, method));
+    }
+    let note = match &ranking.floor {
+        Some(floor) => format!(
+            "floor of the reference {} ({}); methods at or below it tie\n",
+            format::number(floor.value),
+            floor.how
+        ),
+        None => "the floor of the reference is not known\n".to_owned(),
+    };
+    finish(&table, &note)
+}
+
+/// Cells of a line of the ranking: rank, method, mean, worst, CPU time, unknowns, memory.
+pub fn ranking_cells(ranking: &Ranking, method: &Ranked) -> [String; 7] {
+    let text = |value: Option<f64>, show: fn(f64) -> String| value.map_or("–".to_owned(), show);
+    let tie = method.echo.is_some_and(|echo| ranking.below_floor(echo));
+    [
+        method.rank.map_or("–".to_owned(), |rank| {
+            format!("{}{rank}", if tie { "=" } else { "" })
+        }),
+        method.method.clone(),
+        text(method.echo, format::number),
+        text(method.worst, format::number),
+        text(method.cpu_s, format::number),
+        text(method.unknowns, |v| format::count(v as usize)),
+        text(method.peak_bytes, format::bytes),
+    ]
+}
+
+/// The verdict as rows spell it.
+pub fn verdict_name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail => "fail",
+        Verdict::NotEvaluated => "not evaluated",
+    }
+}
+
+/// The value with its unit, or a dash.
+pub fn value_text(row: &Row) -> String {
+    row.value
+        .map_or("–".to_owned(), |v| format::with_unit(v, &row.unit))
+}
+
+/// A rule under the header and nothing else.
+const STYLE: TableStyle =
+    TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
+
+fn new_table(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.load_style(STYLE);
+    table.set_header(header.iter().copied());
+    table
+}
+
+fn align_right(table: &mut Table, columns: &[usize]) {
+    for index in columns {
+        if let Some(column) = table.column_mut(*index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+}
+
+fn finish(table: &Table, notes: &str) -> String {
+    format!("{}\n{notes}", table.trim_fmt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::{Measurement, judge};
+    use crate::ranking::Floor;
+    use anechoic_reference::claim::{Accept, Claim, Evidence};
+
+    fn rows() -> Vec<Row> {
+        let claim = |metric: &str| Claim {
+            method: "dashpot".to_owned(),
+            metric: metric.to_owned(),
+            place: "run".to_owned(),
+            accept: Accept::at_most(0.01),
+            evidence: Evidence::Analytic,
+            why: "exact in one dimension".to_owned(),
+        };
+        let measured = [
+            Measurement::of_run("dashpot", "residual", 0.02, "1"),
+            Measurement::of_run("dashpot", "echo_ratio", 0.5, "1"),
+        ];
+        let measured = measured.map(|m| Measurement {
+            place: if m.metric == "echo_ratio" { "A" } else { "run" }.to_owned(),
+            ..m
+        });
+        judge("c", "gate", &measured, &[claim("residual"), claim("order")])
+    }
+
+    #[test]
+    fn failures_and_gaps_say_why() {
+        let text = verdict_table(&rows());
+        assert!(text.contains("0.0200") && text.contains("≤ 0.0100"));
+        assert!(text.contains("fail: dashpot residual run: exact in one dimension"));
+        assert!(text.contains("not evaluated: dashpot order run: order of dashpot"));
+        assert!(!text.contains("echo_ratio"));
+        assert!(measurement_table(&rows()).contains("echo_ratio"));
+    }
+
+    #[test]
+    fn columns_are_aligned() {
+        let text = verdict_table(&rows());
+        let at: Vec<usize> = text
+            .lines()
+            .filter(|line| line.contains("dashpot") && !line.contains(':'))
+            .filter_map(|line| line.find("dashpot"))
+            .collect();
+        assert_eq!(at.len(), 2);
+        assert_eq!(at[0], at[1]);
+    }
+
+    #[test]
+    fn the_ranking_shows_its_floor() {
+        let floor = Floor {
+            value: 0.6,
+            how: "larger buffer".to_owned(),
+        };
+        let text = ranking_table(&Ranking::from_rows(&rows(), "echo_ratio", Some(floor)));
+        assert!(text.contains("=1") && text.contains("larger buffer"));
+    }
+}
