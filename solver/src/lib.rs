@@ -26,7 +26,7 @@ pub mod problem;
 pub mod record;
 mod run;
 mod sampler;
-mod setup;
+pub mod setup;
 pub mod tensor;
 pub mod time;
 pub mod wavelet;

@@ -166,7 +166,7 @@ fn check<const D: usize>(problem: &Problem<D>) -> Result<(), SolverError> {
 ///
 /// # Errors
 /// [`SolverError::Setup`] naming the field at fault.
-pub(crate) fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverError> {
+pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverError> {
     let geometry = Geometry::new(problem)?;
     let moving = problem.point_mode == PointMode::Moving;
     let (mut points, in_target) = fill(problem, &geometry);

@@ -21,8 +21,8 @@ pub struct ConjugateGradients<const D: usize> {
 pub struct Iterated {
     /// Iterations made.
     pub iterations: usize,
-    /// Norm of the residual reached over the scale it was judged by.
-    pub relative_residual: f64,
+    /// Norm of the residual reached.
+    pub residual: f64,
     /// Is it within the tolerance?
     pub converged: bool,
 }
@@ -85,14 +85,9 @@ impl<const D: usize> ConjugateGradients<D> {
             iterations += 1;
             rho = self.precondition_into_direction(Some(rho));
         }
-        let relative_residual = if tolerance > 0.0 {
-            norm / tolerance
-        } else {
-            norm
-        };
         Iterated {
             iterations,
-            relative_residual,
+            residual: norm,
             converged: norm <= tolerance,
         }
     }

@@ -7,6 +7,7 @@ pub mod direct;
 use crate::error::SolverError;
 use crate::problem::SolverKind;
 use crate::tensor::Vector;
+use crate::time::ForceScale;
 use block_matrix::BlockMatrix;
 use cg::ConjugateGradients;
 use direct::Cholesky;
@@ -35,8 +36,8 @@ pub struct Equations<'a, const D: usize> {
     pub held: &'a [[bool; D]],
     /// b.
     pub b: &'a [Vector<D>],
-    /// The size of the forces that b is what they lack to balance; tolerances refer to it.
-    pub scale: f64,
+    /// The forces that b is what they lack to balance; tolerances refer to them.
+    pub scale: ForceScale,
 }
 
 /// Chooses between iteration and factorisation, and remembers why.
@@ -107,9 +108,8 @@ impl<const D: usize> LinearSolver<D> {
             } else {
                 MOST_ITERATIONS
             };
-            let done = self
-                .iterative
-                .solve(matrix, held, b, x, self.rel_tol * scale, most);
+            let tolerance = self.rel_tol * scale.largest + scale.rounding;
+            let done = self.iterative.solve(matrix, held, b, x, tolerance, most);
             self.iterations += done.iterations;
             if done.converged {
                 return Ok(());
@@ -119,7 +119,7 @@ impl<const D: usize> LinearSolver<D> {
                     solver: "conjugate gradients",
                     step: moment.step,
                     time_s: moment.time_s,
-                    residual: done.relative_residual * self.rel_tol,
+                    residual: done.residual / scale.largest,
                     iterations: done.iterations,
                 });
             }

@@ -10,7 +10,7 @@ use crate::linear::{Equations, LinearSolver, Moment};
 use crate::points::{BLOCK, Points, blocks};
 use crate::problem::Transfer;
 use crate::tensor::{Vector, zero};
-use crate::time::{Motion, Rates, System};
+use crate::time::{ForceScale, Motion, Rates, System};
 use std::ops::Range;
 
 /// A range of points with its kernel.
@@ -547,14 +547,21 @@ impl<const D: usize> System<D> for Model<D> {
         &mut self,
         trial: &Motion<'_, D>,
         out: &mut [Vector<D>],
-    ) -> Result<f64, SolverError> {
+    ) -> Result<ForceScale, SolverError> {
         self.internal_force(trial.increment, out)?;
         let mut scale = norm(out);
-        let mut inertia: f64 = 0.0;
-        for ((f, m), a) in out.iter_mut().zip(&self.nodes.lumped.mass).zip(trial.a) {
+        let (mut inertia, mut large): (f64, f64) = (0.0, 0.0);
+        let rate = 4.0 / (self.dt * self.dt);
+        for (((f, m), a), d) in out
+            .iter_mut()
+            .zip(&self.nodes.lumped.mass)
+            .zip(trial.a)
+            .zip(trial.increment)
+        {
             for i in 0..D {
                 let force = m[i] * a[i];
                 inertia += force * force;
+                large += (m[i] * rate * d[i]).powi(2);
                 f[i] = -f[i] - force;
             }
         }
@@ -577,7 +584,10 @@ impl<const D: usize> System<D> for Model<D> {
             }
         }
         self.check_finite(out, "the balance of forces")?;
-        Ok(scale.max(norm(out)))
+        Ok(ForceScale {
+            largest: scale.max(norm(out)),
+            rounding: 8.0 * f64::EPSILON * large.sqrt(),
+        })
     }
 
     fn solve(
@@ -585,7 +595,7 @@ impl<const D: usize> System<D> for Model<D> {
         rates: Rates,
         increment: &[Vector<D>],
         right: &[Vector<D>],
-        scale: f64,
+        scale: ForceScale,
         correction: &mut [Vector<D>],
     ) -> Result<(), SolverError> {
         // a moving model's tangent changes with every trial, a frozen one's only with the rates

@@ -32,6 +32,15 @@ pub struct Motion<'a, const D: usize> {
     pub a: &'a [Vector<D>],
 }
 
+/// What a residual is to be judged by (N).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceScale {
+    /// Norm of the largest of the forces that balance.
+    pub largest: f64,
+    /// What rounding alone leaves of the inertial forces, which are differences of large numbers.
+    pub rounding: f64,
+}
+
 /// What integrators know of the body.
 pub trait System<const D: usize> {
     /// Starts the step from `times[0]` to `times[1]` (s): transfers, masses, held unknowns.
@@ -52,8 +61,8 @@ pub trait System<const D: usize> {
     /// Puts driven velocities and accelerations of the end of the step on their values.
     fn impose_end(&self, v: &mut [Vector<D>], a: &mut [Vector<D>]);
 
-    /// External minus internal, viscous and inertial forces on free unknowns; returns the size of
-    /// the largest of these forces, which the residual is to be judged by (N).
+    /// External minus internal, viscous and inertial forces on free unknowns; returns what they are
+    /// to be judged by.
     ///
     /// # Errors
     /// An inverted point, a force that is not finite.
@@ -61,7 +70,7 @@ pub trait System<const D: usize> {
         &mut self,
         trial: &Motion<'_, D>,
         out: &mut [Vector<D>],
-    ) -> Result<f64, SolverError>;
+    ) -> Result<ForceScale, SolverError>;
 
     /// Solves the effective system at the trial increment for a correction; `scale` is what
     /// [`System::residual`] returned.
@@ -73,7 +82,7 @@ pub trait System<const D: usize> {
         rates: Rates,
         increment: &[Vector<D>],
         right: &[Vector<D>],
-        scale: f64,
+        scale: ForceScale,
         correction: &mut [Vector<D>],
     ) -> Result<(), SolverError>;
 

@@ -73,8 +73,13 @@ impl<const D: usize> Newton<D> {
             };
             let scale = system.residual(&trial, &mut self.residual)?;
             let size = norm(&self.residual);
-            relative = if scale > 0.0 { size / scale } else { 0.0 };
-            if relative <= TOLERANCE && !system.is_linear() || size == 0.0 {
+            relative = if scale.largest > 0.0 {
+                size / scale.largest
+            } else {
+                0.0
+            };
+            let balanced = size <= TOLERANCE * scale.largest + scale.rounding;
+            if balanced && !system.is_linear() || size == 0.0 {
                 return Ok(iteration);
             }
             if iteration == MOST_ITERATIONS {
