@@ -9,7 +9,7 @@ const PICTURE: &str = "bars";
 const WIDTH: f64 = 900.0;
 const ROW: f64 = 26.0;
 const TOP: f64 = 42.0;
-const FOOT: f64 = 44.0;
+const FOOT: f64 = 46.0;
 const GAP: f64 = 26.0;
 
 /// One column of bars: a number for each method.
@@ -206,7 +206,7 @@ fn draw_floor(drawing: &mut Drawing, panel: &Panel, floor: f64) {
     let stroke = Stroke::dashed(palette::INK, 1.2);
     drawing.line((x, panel.top), (x, panel.bottom()), stroke);
     let at = (x, panel.top - 8.0);
-    drawing.text_in("floor", at, 10.0, Align::Middle, palette::SOFT);
+    drawing.text_in("floor", at, 11.0, Align::Middle, palette::SOFT);
 }
 
 /// The base line of the bars and the horizontal ticks.
@@ -218,7 +218,7 @@ fn frame(drawing: &mut Drawing, panel: &Panel) {
     for tick in panel.x.ticks() {
         let x = panel.at(*tick, 0.0).0;
         drawing.line((x, foot), (x, foot + 3.5), stroke);
-        let at = (x, foot + 11.0);
+        let at = (x, foot + 12.0);
         drawing.text(&panel.x.tick_label(*tick), at, TICK_TEXT, Align::Middle);
     }
 }
