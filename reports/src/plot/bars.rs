@@ -1,7 +1,8 @@
 //! Bars: the echo of each method on a log axis, with its cost beside it.
 
 use super::axis::{Axis, LABEL_TEXT, Panel, TICK_TEXT};
-use super::drawing::{Align, Drawing, Mark, Stroke, text_width};
+use super::drawing::{Align, Drawing, Mark, Stroke};
+use super::writer::text_width;
 use super::{PlotError, check, empty, palette};
 use crate::format;
 
@@ -198,7 +199,7 @@ fn cost_axis(cost: &Bars, width: f64) -> Axis {
         .flatten()
         .fold(0.0, |m, v| f64::max(m, *v));
     let max = if max > 0.0 { 1.35 * max } else { 1.0 };
-    Axis::linear(0.0, max, (width / 60.0) as usize)
+    Axis::linear(0.0, max, (width / 48.0) as usize)
 }
 
 fn draw_floor(drawing: &mut Drawing, panel: &Panel, floor: f64) {

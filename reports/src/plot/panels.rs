@@ -1,7 +1,8 @@
 //! Panels of lines with a shared legend: the body of all pictures over time.
 
 use super::axis::{Axis, LABEL_TEXT, Panel};
-use super::drawing::{Align, Drawing, Mark, Stroke, text_width};
+use super::drawing::{Align, Drawing, Mark, Stroke};
+use super::writer::text_width;
 use super::{PlotError, check, empty, palette};
 
 const WIDTH: u32 = 900;

@@ -1,8 +1,9 @@
 //! A field over place and time: waves and their echoes as slanted bands, methods side by side.
 
 use super::axis::{Axis, Panel};
-use super::drawing::{Align, Drawing, Mark, Stroke, text_width};
+use super::drawing::{Align, Drawing, Mark, Stroke};
 use super::heat::{Colours, Raster, colour_bar};
+use super::writer::text_width;
 use super::{PlotError, check, empty, palette};
 use anechoic_solver::record::SpaceTime;
 
