@@ -43,10 +43,10 @@ impl ConvergencePlot {
         let (h, errors) = self.ranges()?;
         let mut drawing = Drawing::new(WIDTH, HEIGHT);
         let panel = Panel {
-            left: 72.0,
+            left: 76.0,
             top: 16.0,
-            width: f64::from(WIDTH) - 72.0 - LEGEND,
-            height: f64::from(HEIGHT) - 16.0 - 46.0,
+            width: f64::from(WIDTH) - 76.0 - LEGEND,
+            height: f64::from(HEIGHT) - 16.0 - 48.0,
             x: Axis::log_at(h.0 / 1.5, h.1 * 1.5, self.levels()),
             y: Axis::log_range(errors.0 / 2.5, errors.1 * 1.8, 8),
         };
@@ -57,7 +57,7 @@ impl ConvergencePlot {
         }
         panel.frame(&mut drawing, true, true);
         panel.x_title(&mut drawing, "cell size h (m)");
-        panel.y_title(&mut drawing, &self.quantity, 54.0);
+        panel.y_title(&mut drawing, &self.quantity, 58.0);
         Ok(drawing)
     }
 

@@ -8,9 +8,9 @@ use anechoic_solver::record::Snapshot;
 
 const PICTURE: &str = "snapshots";
 const WIDTH: f64 = 900.0;
-const LEFT: f64 = 92.0;
+const LEFT: f64 = 98.0;
 const BAR: f64 = 92.0;
-const GAP: f64 = 20.0;
+const GAP: f64 = 24.0;
 const TOP: f64 = 26.0;
 const FOOT: f64 = 40.0;
 
@@ -186,9 +186,9 @@ impl SnapshotPlot {
             panel.x_title(drawing, "x (m)");
         }
         if column == 0 {
-            panel.y_title(drawing, "y (m)", 50.0);
+            panel.y_title(drawing, "y (m)", 56.0);
             let text = format!("t = {} s", crate::format::short(time));
-            panel.y_title(drawing, &text, 78.0);
+            panel.y_title(drawing, &text, 84.0);
         }
     }
 }
