@@ -1,1 +1,29 @@
-//! The case runner.
+//! The case runner: scenes as data, runs, records on disk, judgement, the command line.
+//!
+//! - [`scenes`]: the benchmarks, one file each; [`scene`] says what a benchmark is.
+//! - [`spec`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
+//! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
+//! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
+//! - [`runner`], [`progress`]: solving; [`store`]: records on disk.
+//! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
+//! - [`commands`], [`cli`]: the program.
+
+pub mod checks;
+pub mod cli;
+pub mod commands;
+pub mod draft;
+pub mod error;
+pub mod field;
+pub mod filter;
+pub mod judge;
+pub mod pictures;
+pub mod prepare;
+pub mod progress;
+pub mod provenance;
+pub mod runner;
+pub mod scene;
+pub mod scene_text;
+pub mod scenes;
+pub mod spec;
+pub mod store;
+pub mod study;

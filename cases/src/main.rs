@@ -1,2 +1,7 @@
-//! Binary.
-fn main() {}
+//! The program `anechoic`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(anechoic::cli::main())
+}

@@ -1,0 +1,150 @@
+//! What must hold between the fields of a scene. Complaints are collected, so that all come at once.
+
+use crate::draft::Origins;
+use crate::error::Complaint;
+use crate::spec::{BoundarySpec, PointsSpec, ReceiverSpec};
+use anechoic_solver::boundary::{SideMethod, Value};
+use anechoic_solver::problem::{PointMode, Transfer};
+use anechoic_solver::wavelet::Pulse;
+
+/// Collects what is wrong.
+#[derive(Debug)]
+pub struct Checks<'a> {
+    origins: &'a Origins,
+    complaints: Vec<Complaint>,
+}
+
+/// Relative slack in which a length counts as a multiple of the cell.
+const WHOLE: f64 = 1e-9;
+
+impl<'a> Checks<'a> {
+    /// Checks of values that come from `origins`.
+    pub fn new(origins: &'a Origins) -> Self {
+        Checks {
+            origins,
+            complaints: Vec::new(),
+        }
+    }
+
+    /// What was found.
+    pub fn into_complaints(self) -> Vec<Complaint> {
+        self.complaints
+    }
+
+    /// Complains about `field` unless `holds`.
+    pub fn require(&mut self, holds: bool, field: &str, message: impl FnOnce() -> String) {
+        if !holds {
+            self.complaints.push(Complaint {
+                origin: self.origins.of(field),
+                field: field.to_owned(),
+                message: message(),
+            });
+        }
+    }
+
+    /// A length that must consist of whole cells.
+    pub fn whole_cells(&mut self, field: &str, length: f64, h: f64) {
+        let cells = length / h;
+        let rounded = cells.round().max(1.0);
+        self.require((cells - rounded).abs() <= WHOLE * rounded, field, || {
+            format!(
+                "{length} m is not a multiple of the cell (grid.h_m = {h} m); nearest: {} m",
+                rounded * h
+            )
+        });
+    }
+
+    /// Points in a cell and how they exchange motion with the nodes.
+    pub fn points(&mut self, points: &PointsSpec) {
+        let n = points.per_cell;
+        self.require(n.isqrt().pow(2) == n, "points.per_cell", || {
+            format!("{n} is not a square; allowed: 1, 4, 9, 16, ...")
+        });
+        let keeps = points.transfer == Transfer::Keep && points.mode == PointMode::Moving;
+        self.require(!keeps, "points.transfer", || {
+            "\"keep\" needs frozen points; with points.mode = \"moving\" allowed: \"affine\", \"flip\", \"pic\"".into()
+        });
+    }
+
+    /// Receivers with names of their own, inside a box of the given size that starts at the origin (m).
+    pub fn receivers(&mut self, receivers: &[ReceiverSpec], size: [f64; 2]) {
+        self.require(!receivers.is_empty(), "receivers", || {
+            "the list is empty; a scene needs a receiver at least".into()
+        });
+        for (index, receiver) in receivers.iter().enumerate() {
+            for (key, at, size) in [
+                ("x_m", receiver.x_m, size[0]),
+                ("y_m", receiver.y_m, size[1]),
+            ] {
+                let inside = (0.0..=size).contains(&at);
+                self.require(inside, &format!("receivers[{index}].{key}"), || {
+                    format!(
+                        "receiver {} at {at} m lies outside the mesh; allowed: 0 <= value <= {size}",
+                        receiver.name
+                    )
+                });
+            }
+            let before = receivers[..index].iter().any(|r| r.name == receiver.name);
+            self.require(!before, &format!("receivers[{index}].name"), || {
+                format!("a second receiver is called {}", receiver.name)
+            });
+        }
+    }
+
+    /// A pulse that must be over before the run is.
+    pub fn pulse(&mut self, pulse: &Pulse, end_s: f64) {
+        self.require(pulse.end() <= end_s, "source.frequency_Hz", || {
+            format!(
+                "the pulse lasts {} s, longer than the run (time.end_s = {end_s} s)",
+                pulse.end()
+            )
+        });
+    }
+
+    /// A step that must fit into the run.
+    pub fn step(&mut self, dt_s: f64, end_s: f64) {
+        self.require(dt_s <= end_s, "time.dt_s", || {
+            format!("{dt_s} s is longer than the run (time.end_s = {end_s} s)")
+        });
+    }
+
+    /// Layers of whole cells that leave something of the body, whose size is given (m).
+    pub fn layers(&mut self, boundary: &BoundarySpec, size: [f64; 2], h: f64) {
+        for (index, (side, method)) in boundary.named().into_iter().enumerate() {
+            let axis = index / 2;
+            let field = format!("boundary.{side}.thickness_m");
+            if let Some(thickness) = number(method, "thickness_m") {
+                self.whole_cells(&field, thickness, h);
+            }
+            let opposite = boundary.named()[index ^ 1].1;
+            let (inner, other) = (inner_thickness(method), inner_thickness(opposite));
+            self.require(inner == 0.0 || inner + other < size[axis], &field, || {
+                format!(
+                    "an inner layer of {inner} m{} leaves nothing of the body ({} m)",
+                    if other > 0.0 {
+                        " with the opposite one"
+                    } else {
+                        ""
+                    },
+                    size[axis]
+                )
+            });
+        }
+    }
+}
+
+/// The number that a side gives for a parameter.
+pub fn number(method: &SideMethod, key: &str) -> Option<f64> {
+    match method.params.get(key) {
+        Some(Value::Number(x)) => Some(*x),
+        _ => None,
+    }
+}
+
+/// Thickness of a layer inside the body (m); zero when there is none.
+pub fn inner_thickness(method: &SideMethod) -> f64 {
+    match method.params.get("placement") {
+        Some(Value::Text(word)) if word == "inside" => number(method, "thickness_m").unwrap_or(0.0),
+        _ => 0.0,
+    }
+}

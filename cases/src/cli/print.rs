@@ -1,0 +1,290 @@
+//! What is printed.
+
+use super::args::Format;
+use crate::commands::{Finished, Plan};
+use crate::error::CaseError;
+use crate::field::short;
+use crate::prepare::Prepared;
+use crate::scene::{Overlay, SceneInfo};
+use crate::store;
+use anechoic_reports::export::summary_json;
+use anechoic_reports::format;
+use anechoic_reports::judge::Tally;
+use anechoic_reports::table::{measurement_table, ranking_table, verdict_table};
+use anechoic_solver::boundary::METHODS;
+use anechoic_solver::record::Status;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
+
+/// Prints to stdout; a reader that has gone away is no error.
+pub fn out(text: &str) {
+    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+}
+
+/// What the program is and what to type next.
+pub fn welcome() -> String {
+    "\
+anechoic measures how much echo boundary methods leave in particle geomechanics (MPM):
+a scene is solved with each method, the records are compared with what is true, and the
+differences become rows, verdicts, a ranking and a report.
+
+Type next:
+  anechoic list                      cases and methods
+  anechoic show compression-1d       a scene and what it will cost
+  anechoic compare compression-1d    solve it with all methods and rank them
+  anechoic --help                    all commands, with examples
+"
+    .to_owned()
+}
+
+/// Cases and methods.
+pub fn list(scenes: &[&SceneInfo], format: Format) -> Result<String, CaseError> {
+    if format == Format::Json {
+        let names = |overlays: &[Overlay]| -> Vec<Value> {
+            let entry = |o: &Overlay| json!({"name": o.name, "summary": o.summary});
+            overlays.iter().map(entry).collect()
+        };
+        let cases: Vec<Value> = scenes
+            .iter()
+            .map(|scene| {
+                json!({
+                    "case": scene.name,
+                    "title": scene.title,
+                    "source": scene.source,
+                    "profiles": names(scene.profiles),
+                    "presets": names(scene.presets),
+                    "methods": names(scene.methods),
+                })
+            })
+            .collect();
+        return json_text(&cases);
+    }
+    let mut text = String::from("Cases\n");
+    for scene in scenes {
+        let _ = writeln!(
+            text,
+            "  {}: {}\n      {}",
+            scene.name, scene.title, scene.source
+        );
+        for (kind, overlays) in [
+            ("profiles", scene.profiles),
+            ("presets", scene.presets),
+            ("methods", scene.methods),
+        ] {
+            let _ = writeln!(text, "    {kind}");
+            for overlay in overlays {
+                let _ = writeln!(text, "      {:<14} {}", overlay.name, overlay.summary);
+            }
+        }
+    }
+    text.push_str("\nMethods of a side (boundary.SIDE.method)\n");
+    for method in METHODS {
+        let _ = writeln!(text, "  {:<14} {}", method.name, method.summary);
+    }
+    Ok(text)
+}
+
+/// A scene, its windows and its bill.
+pub fn show(prepared: &Prepared, format: Format) -> Result<String, CaseError> {
+    let bill = &prepared.bill;
+    let windows = prepared.scene.windows();
+    if format == Format::Json {
+        let windows: Vec<Value> = windows
+            .iter()
+            .map(|w| json!({"where": w.place(), "from_s": w.from_s, "to_s": w.to_s}))
+            .collect();
+        return json_text(&json!({
+            "case": prepared.info.name,
+            "profile": prepared.profile,
+            "method": prepared.method,
+            "hash": prepared.hash(),
+            "scene": prepared.table,
+            "windows": windows,
+            "bill": {
+                "features": bill.features,
+                "points": bill.points,
+                "nodes": bill.nodes,
+                "unknowns": bill.unknowns,
+                "steps": bill.steps,
+                "bytes_per_point": bill.bytes_per_point,
+                "bytes_per_node": bill.bytes_per_node,
+            },
+        }));
+    }
+    let info = prepared.info;
+    let mut text = format!(
+        "{}: {}\n{}\nprofile {}, method {}\n\n",
+        info.name, info.title, info.source, prepared.profile, prepared.method
+    );
+    for field in info.all_fields() {
+        let value = field
+            .path
+            .split('.')
+            .try_fold(None, |value: Option<&toml::Value>, key| {
+                let next = match value {
+                    None => prepared.table.get(key),
+                    Some(value) => value.get(key),
+                };
+                next.map(Some)
+            });
+        if let Some(Some(value)) = value {
+            let _ = writeln!(
+                text,
+                "  {:<24} {:<28} {}",
+                field.path,
+                one_line(value),
+                field.doc
+            );
+        }
+    }
+    text.push_str("\nEchoes are looked for\n");
+    for window in windows {
+        let end = window
+            .to_s
+            .map_or("the end".to_owned(), |to| format!("{to} s"));
+        let _ = writeln!(
+            text,
+            "  {:<8} from {:.4} s to {end}",
+            window.place(),
+            window.from_s
+        );
+    }
+    let _ = write!(
+        text,
+        "\nBill\n  features   {}\n  points     {}, {} each\n  nodes      {}, {} each\n  unknowns   {}\n  steps      {}\n",
+        bill.features.join(", "),
+        format::count(bill.points),
+        format::bytes(bill.bytes_per_point as f64),
+        format::count(bill.nodes),
+        format::bytes(bill.bytes_per_node as f64),
+        format::count(bill.unknowns),
+        format::count(bill.steps),
+    );
+    Ok(text)
+}
+
+/// What would be solved, and where it would go.
+pub fn plan(plan: &Plan, out: &Path, format: Format) -> Result<String, CaseError> {
+    let folder = |scene: &Prepared| {
+        let folder = out.join(scene.info.name).join(&scene.method);
+        folder.join(scene.hash()).display().to_string()
+    };
+    if format == Format::Json {
+        let runs: Vec<Value> = plan
+            .scenes
+            .iter()
+            .map(|scene| {
+                json!({
+                    "case": scene.info.name,
+                    "profile": scene.profile,
+                    "method": scene.method,
+                    "points": scene.bill.points,
+                    "unknowns": scene.bill.unknowns,
+                    "steps": scene.bill.steps,
+                    "folder": folder(scene),
+                })
+            })
+            .collect();
+        return json_text(&runs);
+    }
+    let mut text = format!("would solve {} runs\n", plan.scenes.len());
+    for scene in &plan.scenes {
+        let _ = writeln!(
+            text,
+            "  {:<14} {} points, {} unknowns, {} steps -> {}",
+            scene.method,
+            format::count(scene.bill.points),
+            format::count(scene.bill.unknowns),
+            format::count(scene.bill.steps),
+            folder(scene),
+        );
+    }
+    Ok(text)
+}
+
+/// Verdicts, ranking, measurements, and where the report lies; or the rows as JSON.
+pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError> {
+    if format == Format::Json {
+        let rows: Vec<_> = studies.iter().flat_map(|s| s.rows.clone()).collect();
+        return summary_json(&rows).map_err(|error| CaseError::Report {
+            what: "the rows as JSON".into(),
+            reason: error.to_string(),
+        });
+    }
+    let mut text = String::new();
+    for finished in studies {
+        let tally = Tally::of(&finished.rows);
+        text += &verdict_table(&finished.rows);
+        let _ = writeln!(
+            text,
+            "{} pass, {} fail, {} not evaluated\n",
+            tally.pass, tally.fail, tally.not_evaluated
+        );
+        match &finished.study.ranking {
+            Some(ranking) if finished.study.runs.len() > 1 => text += &ranking_table(ranking),
+            _ => text += &measurement_table(&finished.rows),
+        }
+        let _ = writeln!(text, "\nreport: {}", finished.study.report.display());
+    }
+    Ok(text)
+}
+
+/// Runs that did not end, for stderr.
+pub fn incomplete(finished: &Finished) -> String {
+    let mut text = String::new();
+    for run in &finished.study.runs {
+        let how = match &run.record.status {
+            Status::Complete => continue,
+            Status::Cancelled => "stopped before its end".to_owned(),
+            Status::Failed(error) => format!("failed: {error}"),
+        };
+        let _ = writeln!(
+            text,
+            "{}: {how}; what stands is stored",
+            run.manifest.method
+        );
+    }
+    text
+}
+
+/// A value on one line.
+fn one_line(value: &toml::Value) -> String {
+    match value {
+        toml::Value::Table(side) => {
+            let method = side
+                .get("method")
+                .and_then(toml::Value::as_str)
+                .unwrap_or("");
+            let others: Vec<String> = side
+                .iter()
+                .filter(|(key, _)| *key != "method")
+                .map(|(key, value)| format!("{key} {value}"))
+                .collect();
+            if others.is_empty() {
+                method.to_owned()
+            } else {
+                format!("{method}: {}", others.join(", "))
+            }
+        }
+        toml::Value::Array(list) => {
+            let text = |r: &toml::Value| {
+                let get = |key| r.get(key).map_or(String::new(), ToString::to_string);
+                format!(
+                    "{} ({}, {})",
+                    get("name").trim_matches('"'),
+                    get("x_m"),
+                    get("y_m")
+                )
+            };
+            list.iter().map(text).collect::<Vec<_>>().join(", ")
+        }
+        toml::Value::Float(x) => short(*x),
+        other => other.to_string().trim_matches('"').to_owned(),
+    }
+}
+
+fn json_text(value: &impl serde::Serialize) -> Result<String, CaseError> {
+    store::json(value).map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
+}

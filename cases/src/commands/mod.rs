@@ -1,0 +1,168 @@
+//! What the program does, for callers that are not its command line: nothing here prints.
+
+mod plan;
+
+use crate::error::{CaseError, exit};
+use crate::filter::Filter;
+use crate::prepare::{Prepared, Request, Target};
+use crate::runner::run_all;
+use crate::store::Store;
+use crate::study::{Published, find_studies, publish};
+use anechoic_reports::row::{Row, Verdict};
+use anechoic_solver::record::Status;
+pub use plan::Plan;
+use std::path::{Path, PathBuf};
+
+/// What `run` and `compare` are asked.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Case or file, profile, presets, assignments.
+    pub request: Request,
+    /// Methods by name. `run` takes one at most and the scene's sides without; `compare` takes all
+    /// that apply without.
+    pub methods: Vec<String>,
+    /// Rows, and the methods that they need.
+    pub filter: Option<String>,
+    /// Results folder.
+    pub out: PathBuf,
+    /// Runs at a time.
+    pub jobs: usize,
+    /// The command as typed, for the report.
+    pub command: String,
+}
+
+impl Options {
+    /// A case with everything else left as it is; results go to `out`.
+    pub fn new(case: &str, out: &Path) -> Self {
+        Options {
+            request: Request {
+                target: case.to_owned(),
+                ..Request::default()
+            },
+            methods: Vec::new(),
+            filter: None,
+            out: out.to_owned(),
+            jobs: 1,
+            command: format!("anechoic {case}"),
+        }
+    }
+
+    /// The same under another profile.
+    pub fn profile(mut self, name: &str) -> Self {
+        self.request.profile = Some(name.to_owned());
+        self
+    }
+
+    /// The same with an assignment `field=value`.
+    pub fn set(mut self, assignment: &str) -> Self {
+        self.request.sets.push(assignment.to_owned());
+        self
+    }
+
+    /// The same with a method; repeatable for `compare`.
+    pub fn method(mut self, name: &str) -> Self {
+        self.methods.push(name.to_owned());
+        self
+    }
+}
+
+/// A finished command.
+#[derive(Debug)]
+pub struct Finished {
+    /// The study with all its rows.
+    pub study: Published,
+    /// The rows that the filter chooses; all without one.
+    pub rows: Vec<Row>,
+}
+
+impl Finished {
+    fn new(study: Published, filter: Option<&Filter>) -> Result<Self, CaseError> {
+        let rows = match filter {
+            Some(filter) => filter.choose(&study.rows)?,
+            None => study.rows.clone(),
+        };
+        Ok(Finished { study, rows })
+    }
+
+    /// The exit code: failed or stopped runs, then failed claims, then missing references.
+    pub fn exit_code(&self) -> u8 {
+        let ended = |run: &crate::runner::Run| run.record.status == Status::Complete;
+        let failed = |row: &Row| row.verdict == Some(Verdict::Fail);
+        if !self.study.runs.iter().all(ended) {
+            exit::SOLVER_FAILED
+        } else if self.rows.iter().any(failed) {
+            exit::GATE_FAILED
+        } else if self.study.reference_missing.is_some() {
+            exit::REFERENCE_MISSING
+        } else {
+            exit::PASS
+        }
+    }
+}
+
+/// The scene that `show` shows: the case's or file's, with a method if one is named.
+///
+/// # Errors
+/// Whatever is wrong with the request.
+pub fn show(request: &Request, method: Option<&str>) -> Result<Prepared, CaseError> {
+    let prepared = Target::find(request)?.prepare(method)?;
+    plan::refuse_unused(&prepared.unused)?;
+    Ok(prepared)
+}
+
+/// What `run` would do.
+///
+/// # Errors
+/// Whatever is wrong with the request.
+pub fn plan_run(options: &Options) -> Result<Plan, CaseError> {
+    Plan::run(options)
+}
+
+/// What `compare` would do.
+///
+/// # Errors
+/// Whatever is wrong with the request.
+pub fn plan_compare(options: &Options) -> Result<Plan, CaseError> {
+    Plan::compare(options)
+}
+
+/// Solves one scene with one method and judges it.
+///
+/// # Errors
+/// Whatever is wrong with the request, found before the solve; [`CaseError::Storage`] after it.
+pub fn run(options: &Options) -> Result<Finished, CaseError> {
+    execute(Plan::run(options)?, options)
+}
+
+/// Solves one scene with all methods that apply, judges and ranks them.
+///
+/// # Errors
+/// As [`run`]. A method whose solver fails is no error: it is a run that failed.
+pub fn compare(options: &Options) -> Result<Finished, CaseError> {
+    execute(Plan::compare(options)?, options)
+}
+
+/// Judges and shows stored studies again, without solving.
+///
+/// # Errors
+/// [`CaseError::NoRecords`], and what is wrong with a record.
+pub fn report(folder: &Path, filter: Option<&str>) -> Result<Vec<Finished>, CaseError> {
+    let filter = filter.map(|text| Filter(text.to_owned()));
+    find_studies(folder)?
+        .into_iter()
+        .map(|study| {
+            let published = publish(&study.folder, study.runs, &study.command)?;
+            Finished::new(published, filter.as_ref())
+        })
+        .collect()
+}
+
+fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
+    let store = Store::open(&options.out)?;
+    let folder = store.case_folder(plan.case());
+    let runs = run_all(plan.scenes, options.jobs, &store)?;
+    Finished::new(
+        publish(&folder, runs, &options.command)?,
+        plan.filter.as_ref(),
+    )
+}

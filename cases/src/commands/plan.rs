@@ -1,0 +1,115 @@
+//! Which scenes a command solves.
+
+use super::Options;
+use crate::error::CaseError;
+use crate::filter::Filter;
+use crate::prepare::{Prepared, Target};
+
+/// Scenes ready to run.
+#[derive(Debug)]
+pub struct Plan {
+    /// The scenes, in the order of the comparison.
+    pub scenes: Vec<Prepared>,
+    /// Which rows are asked for.
+    pub filter: Option<Filter>,
+}
+
+impl Plan {
+    /// One scene.
+    pub(super) fn run(options: &Options) -> Result<Self, CaseError> {
+        let method = match options.methods.as_slice() {
+            [] => None,
+            [one] => Some(one.as_str()),
+            _ => {
+                return Err(CaseError::Usage(
+                    "run takes one --method; compare takes several".into(),
+                ));
+            }
+        };
+        let scene = Target::find(&options.request)?.prepare(method)?;
+        refuse_unused(&scene.unused)?;
+        let filter = options.filter.clone().map(Filter);
+        if let Some(filter) = &filter {
+            filter.methods(&[&scene.method], &places(&scene))?;
+        }
+        Ok(Plan {
+            scenes: vec![scene],
+            filter,
+        })
+    }
+
+    /// All methods that apply or are named, and what the file describes.
+    pub(super) fn compare(options: &Options) -> Result<Self, CaseError> {
+        let target = Target::find(&options.request)?;
+        let mut names: Vec<&str> = match options.methods.as_slice() {
+            [] => target.info.methods.iter().map(|m| m.name).collect(),
+            some => some.iter().map(String::as_str).collect(),
+        };
+        let mut described = if target.names_sides() {
+            Some(target.prepare(None)?)
+        } else {
+            None
+        };
+        let described_name = described.as_ref().map(|scene| scene.method.clone());
+        if let Some(name) = described_name.as_deref()
+            && options.methods.is_empty()
+            && !names.contains(&name)
+        {
+            names.push(name);
+        }
+        let filter = options.filter.clone().map(Filter);
+        if let Some(filter) = &filter {
+            let any = target.prepare(None)?;
+            let chosen = filter.methods(&names, &places(&any))?;
+            // Ratios need the standard run.
+            names.retain(|name| chosen.contains(name) || *name == target.info.standard);
+        }
+        let mut scenes = Vec::new();
+        for name in names {
+            let file_says = described_name.as_deref() == Some(name);
+            scenes.push(match described.take_if(|_| file_says) {
+                Some(scene) => scene,
+                None => target.prepare(Some(name))?,
+            });
+        }
+        refuse_unused(&unused_everywhere(&scenes))?;
+        Ok(Plan { scenes, filter })
+    }
+
+    /// The case.
+    pub fn case(&self) -> &'static str {
+        self.scenes.first().map_or("", |scene| scene.info.name)
+    }
+}
+
+/// Assignments that reached no side in any scene.
+fn unused_everywhere(scenes: &[Prepared]) -> Vec<String> {
+    let Some((first, others)) = scenes.split_first() else {
+        return Vec::new();
+    };
+    first
+        .unused
+        .iter()
+        .filter(|set| others.iter().all(|scene| scene.unused.contains(set)))
+        .cloned()
+        .collect()
+}
+
+/// An assignment to a method that no side uses is a mistake.
+pub(super) fn refuse_unused(unused: &[String]) -> Result<(), CaseError> {
+    match unused.first() {
+        Some(set) => Err(CaseError::Usage(format!(
+            "{set}: no side uses that method here; choose it with --method"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Places that rows of the scene may have.
+fn places(scene: &Prepared) -> Vec<String> {
+    let mut places = vec!["run".to_owned(), "target".to_owned()];
+    for window in scene.scene.windows() {
+        places.push(window.place());
+    }
+    places
+}

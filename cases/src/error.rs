@@ -1,0 +1,227 @@
+//! What can go wrong, where, and what to do about it; each error knows its exit code.
+
+use anechoic_solver::error::SolverError;
+use std::fmt;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Exit codes of the program.
+pub mod exit {
+    /// All claims hold, or none was made.
+    pub const PASS: u8 = 0;
+    /// A claim failed.
+    pub const GATE_FAILED: u8 = 1;
+    /// The command line, a file or the output folder is at fault; found before anything is solved.
+    pub const USAGE: u8 = 2;
+    /// A run failed or was stopped, or a result could not be written.
+    pub const SOLVER_FAILED: u8 = 3;
+    /// Claims could not be judged because their reference does not exist.
+    pub const REFERENCE_MISSING: u8 = 4;
+}
+
+/// Where the value of a field comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The scene's own value.
+    Default,
+    /// A profile, preset or method of the scene.
+    BuiltIn(String),
+    /// A line of a file.
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+    },
+    /// A `--set` on the command line.
+    Set(String),
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Origin::Default => write!(f, "the scene's value"),
+            Origin::BuiltIn(name) => write!(f, "{name}"),
+            Origin::File { path, line } => write!(f, "{}:{line}", path.display()),
+            Origin::Set(text) => write!(f, "--set {text}"),
+        }
+    }
+}
+
+/// One thing that is wrong with a scene as given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Complaint {
+    /// Where the value comes from.
+    pub origin: Origin,
+    /// The field, for example `material.nu`.
+    pub field: String,
+    /// What is wrong and what is allowed.
+    pub message: String,
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}: {}", self.origin, self.field, self.message)
+    }
+}
+
+/// Why a command did not do what it was asked.
+#[derive(Debug, Error)]
+pub enum CaseError {
+    /// A name that is not known.
+    #[error("unknown {what} `{given}`{}; known: {}", hint(.nearest), .known.join(", "))]
+    Unknown {
+        /// Kind of name: case, profile, preset, method.
+        what: &'static str,
+        /// The name as given.
+        given: String,
+        /// The known name that is nearest.
+        nearest: Option<String>,
+        /// All known names.
+        known: Vec<String>,
+    },
+    /// Fields of the scene are at fault; all of them are listed.
+    #[error("{}", join(.0))]
+    Scene(Vec<Complaint>),
+    /// A file is not TOML.
+    #[error("{}:{line}:{column}: {message}", path.display())]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What the parser says.
+        message: String,
+    },
+    /// A file that names no case.
+    #[error("{}: the file names no case; its first line should be `case = \"...\"`", .0.display())]
+    NoCase(PathBuf),
+    /// A file cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The output folder cannot be written; found before anything is solved.
+    #[error("{}: cannot write there: {source}; choose another folder with --out", path.display())]
+    Output {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A result could not be written midway; what was finished before stays.
+    #[error("{}: could not be written: {source}; what was finished before stays", path.display())]
+    Storage {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A stored record does not say what it should.
+    #[error("{}: not a record of this program: {reason}", path.display())]
+    BadRecord {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A folder without records.
+    #[error("{}: holds no records; `anechoic compare CASE --out DIR` makes some", .0.display())]
+    NoRecords(PathBuf),
+    /// A filter that matches nothing.
+    #[error("--filter {given} matches nothing{}; it is looked for in METHOD/METRIC/WHERE, for example in {example}", hint(.nearest))]
+    Filter {
+        /// The filter as given.
+        given: String,
+        /// The nearest known word.
+        nearest: Option<String>,
+        /// A row that exists.
+        example: String,
+    },
+    /// A command line that does not make sense.
+    #[error("{0}")]
+    Usage(String),
+    /// The problem cannot be set up for a reason the scene did not see.
+    #[error("{0}")]
+    Solver(#[from] SolverError),
+    /// A picture or report could not be made.
+    #[error("{what} could not be made: {reason}")]
+    Report {
+        /// Which.
+        what: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+impl CaseError {
+    /// The exit code that this error stands for.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            CaseError::Unknown { .. }
+            | CaseError::Scene(_)
+            | CaseError::Syntax { .. }
+            | CaseError::NoCase(_)
+            | CaseError::Read { .. }
+            | CaseError::Output { .. }
+            | CaseError::BadRecord { .. }
+            | CaseError::NoRecords(_)
+            | CaseError::Filter { .. }
+            | CaseError::Usage(_)
+            | CaseError::Solver(SolverError::Setup { .. }) => exit::USAGE,
+            CaseError::Storage { .. } | CaseError::Solver(_) | CaseError::Report { .. } => {
+                exit::SOLVER_FAILED
+            }
+        }
+    }
+
+    /// An unknown name, with the nearest of the known ones.
+    pub fn unknown<'a>(
+        what: &'static str,
+        given: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        let known: Vec<String> = known.into_iter().map(str::to_owned).collect();
+        CaseError::Unknown {
+            what,
+            given: given.to_owned(),
+            nearest: nearest(given, known.iter().map(String::as_str)),
+            known,
+        }
+    }
+}
+
+/// The known name that looks most like `given`, if any looks alike.
+pub fn nearest<'a>(given: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    known
+        .into_iter()
+        .map(|name| (strsim::jaro_winkler(given, name), name))
+        .filter(|(likeness, _)| *likeness > 0.6)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, name)| name.to_owned())
+}
+
+/// "; did you mean ...?" when there is a nearest name.
+pub fn hint(nearest: &Option<String>) -> String {
+    nearest
+        .as_ref()
+        .map(|name| format!("; did you mean `{name}`?"))
+        .unwrap_or_default()
+}
+
+fn join(complaints: &[Complaint]) -> String {
+    let lines: Vec<String> = complaints.iter().map(Complaint::to_string).collect();
+    match lines.as_slice() {
+        [one] => one.clone(),
+        several => format!(
+            "{} fields are at fault:\n  {}",
+            several.len(),
+            several.join("\n  ")
+        ),
+    }
+}

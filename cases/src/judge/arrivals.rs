@@ -1,0 +1,132 @@
+//! Arrivals of separate pulses: when they come, by cross-correlation, and how high they are.
+
+use anechoic_reference::claim::Evidence;
+use anechoic_reports::judge::Measurement;
+use anechoic_reports::norms::{NormError, Traces, Window, arrival_lag, peak_deviation};
+
+/// Below this share of its peak the reference counts as silent.
+const SILENT: f64 = 1e-6;
+
+/// Lags are looked for up to this share of a pulse's duration.
+const REACH: f64 = 0.2;
+
+/// The worst lag and the worst deviation of a peak over the arrivals of each receiver.
+pub fn measure(
+    method: &str,
+    against: Option<(Evidence, &str)>,
+    run: &Traces,
+    truth: &Traces,
+) -> Vec<Measurement> {
+    let mut numbers = Vec::new();
+    for (mine, true_trace) in run.receivers().iter().zip(truth.receivers()) {
+        // The strongest component carries the pulses.
+        let peak = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let Some(axis) = (0..true_trace.components.len()).max_by(|&a, &b| {
+            peak(&true_trace.components[a]).total_cmp(&peak(&true_trace.components[b]))
+        }) else {
+            continue;
+        };
+        let (values, reference) = (&mine.components[axis], &true_trace.components[axis]);
+        let times = run.times();
+        let arrivals = arrivals(times, reference);
+        let worst = |measure: &dyn Fn(&Window) -> Result<f64, NormError>| -> Result<f64, String> {
+            let mut worst = None;
+            for window in &arrivals {
+                let value = measure(window).map_err(|error| error.to_string())?.abs();
+                worst = Some(worst.map_or(value, |w: f64| w.max(value)));
+            }
+            worst.ok_or_else(|| "no pulse arrives in full before the end of the run".into())
+        };
+        let lag = worst(&|window| {
+            let reach = REACH * (window.to - window.from);
+            arrival_lag(times, values, reference, *window, reach)
+        });
+        let height = worst(&|window| peak_deviation(times, values, reference, *window));
+        for (metric, unit, value) in [("arrival_s", "s", lag), ("peak_deviation", "1", height)] {
+            numbers.push(Measurement {
+                method: method.to_owned(),
+                metric: metric.to_owned(),
+                place: mine.name.clone(),
+                value,
+                unit: unit.to_owned(),
+                against: against.map(|(kind, name)| (kind, name.to_owned())),
+            });
+        }
+    }
+    numbers
+}
+
+/// Stretches in which the reference is not silent, and after which the record goes on long enough
+/// to look for a late arrival.
+fn arrivals(times: &[f64], reference: &[f64]) -> Vec<Window> {
+    let peak = reference.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let loud: Vec<usize> = (0..times.len())
+        .filter(|&i| reference[i].abs() > SILENT * peak)
+        .collect();
+    let mut windows: Vec<(usize, usize)> = Vec::new();
+    for i in loud {
+        match windows.last_mut() {
+            // A zero crossing may hit a sample or two.
+            Some((_, end)) if i - *end <= 3 => *end = i,
+            _ => windows.push((i, i)),
+        }
+    }
+    let last = times.last().copied().unwrap_or(0.0);
+    windows
+        .into_iter()
+        .map(|(from, to)| Window {
+            from: times[from],
+            to: times[to],
+        })
+        .filter(|w| w.to > w.from && w.to + REACH * (w.to - w.from) < last)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use anechoic_reports::norms::Trace;
+    use std::f64::consts::PI;
+
+    /// Pulses of half a second at 0.2 s and 2 s, the second late by `lag` and `gain` times as high.
+    fn traces(lag: f64, gain: f64) -> Traces {
+        let times: Vec<f64> = (0..=600).map(|i| 0.005 * i as f64).collect();
+        let pulse = |t: f64| {
+            if (0.0..=0.5).contains(&t) {
+                (2.0 * PI * t).sin()
+            } else {
+                0.0
+            }
+        };
+        let values = times
+            .iter()
+            .map(|t| pulse(t - 0.2) + gain * pulse(t - 2.0 - lag))
+            .collect();
+        let silence = vec![0.0; times.len()];
+        let trace = Trace {
+            name: "A".into(),
+            components: vec![silence, values],
+        };
+        Traces::new(times, vec![trace]).unwrap()
+    }
+
+    #[test]
+    fn the_worst_arrival_counts() {
+        let numbers = measure("fixed", None, &traces(0.03, 0.9), &traces(0.0, 1.0));
+        let value = |metric: &str| {
+            let number = numbers.iter().find(|n| n.metric == metric).unwrap();
+            number.value.clone().unwrap()
+        };
+        assert!((value("arrival_s") - 0.03).abs() < 1e-3);
+        assert!((value("peak_deviation") - 0.1).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_pulse_cut_off_by_the_end_is_no_arrival() {
+        let truth = traces(0.0, 1.0);
+        let times = truth.times();
+        let values = &truth.receivers()[0].components[1];
+        assert_eq!(arrivals(times, values).len(), 2);
+        assert_eq!(arrivals(&times[..480], &values[..480]).len(), 1);
+    }
+}

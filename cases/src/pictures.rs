@@ -1,0 +1,292 @@
+//! Pictures of a study. Only complete runs are drawn; the report says which are not.
+
+use crate::judge::{traces, traces_of};
+use crate::runner::Run;
+use crate::scene::{Quantity, Reference, Role};
+use anechoic_reports::norms::{NormError, Traces, echo_series, target_energy};
+use anechoic_reports::plot::{
+    BarPlot, Bars, Drawing, EchoPlot, EnergyPlot, Guide, Line, PlotError, SpaceTimePlot,
+    TracePanel, TracePlot,
+};
+use anechoic_reports::ranking::Ranking;
+use thiserror::Error;
+
+/// A picture of the report.
+#[derive(Debug)]
+pub struct Picture {
+    /// File name without extension.
+    pub name: &'static str,
+    /// Title.
+    pub title: &'static str,
+    /// What it shows and how to read it.
+    pub caption: String,
+    /// The picture.
+    pub drawing: Drawing,
+    /// A coloured field, which is small as pixels and large as SVG.
+    pub raster: bool,
+}
+
+/// Why a picture cannot be made.
+#[derive(Debug, Error)]
+pub enum PictureError {
+    /// The record does not serve.
+    #[error(transparent)]
+    Norm(#[from] NormError),
+    /// The drawing fails.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+}
+
+/// All pictures that the runs allow.
+///
+/// # Errors
+/// [`PictureError`] when a record is out of shape.
+pub fn draw(runs: &[Run], ranking: &Ranking) -> Result<Vec<Picture>, PictureError> {
+    let runs: Vec<&Run> = runs.iter().filter(|run| run.complete()).collect();
+    let Some(first) = runs.first() else {
+        return Ok(Vec::new());
+    };
+    let reference = first
+        .prepared
+        .scene
+        .references(&first.record.receivers.times)
+        .ok()
+        .and_then(|all| all.into_iter().find(|r| r.role == Role::NoEcho));
+    let mut pictures = vec![series(&runs, reference.as_ref())?];
+    if let Some(reference) = &reference {
+        pictures.extend(echo(&runs, reference, ranking)?);
+    }
+    pictures.extend(bars(ranking)?);
+    pictures.extend(space_time(&runs)?);
+    pictures.extend(energy(&runs)?);
+    Ok(pictures)
+}
+
+/// Receivers' series over the reference, in the component that moves most.
+fn series(runs: &[&Run], reference: Option<&Reference>) -> Result<Picture, PictureError> {
+    let quantity = reference.map_or(Quantity::Velocity, |r| r.quantity);
+    let (name, unit) = match quantity {
+        Quantity::Displacement => ("displacement", "m"),
+        Quantity::Velocity => ("velocity", "m/s"),
+    };
+    let truth = match reference {
+        Some(reference) => Some(traces_of(reference, &runs[0].record)?),
+        None => None,
+    };
+    let all = traces_of_runs(runs, quantity)?;
+    let axis = strongest(&all[0].1);
+    let line = |name: &str, traces: &Traces, receiver: usize| Line {
+        name: name.to_owned(),
+        x: traces.times().to_vec(),
+        y: traces.receivers()[receiver].components[axis].clone(),
+    };
+    let panels = all[0]
+        .1
+        .receivers()
+        .iter()
+        .enumerate()
+        .map(|(i, receiver)| TracePanel {
+            title: place(runs[0], &receiver.name),
+            reference: truth.as_ref().map(|t| line("no echo", t, i)),
+            lines: all.iter().map(|(m, t)| line(m, t, i)).collect(),
+        })
+        .collect();
+    let drawing = TracePlot {
+        quantity: format!("{name} {}", ["x", "y"][axis.min(1)]),
+        unit: unit.to_owned(),
+        panels,
+    }
+    .draw()?;
+    Ok(Picture {
+        name: "receivers",
+        title: "Motion of the receivers",
+        caption: "All methods over the reference without echo; what departs from it is echo."
+            .into(),
+        drawing,
+        raster: false,
+    })
+}
+
+/// Echo against time; needs the standard run.
+fn echo(
+    runs: &[&Run],
+    reference: &Reference,
+    ranking: &Ranking,
+) -> Result<Option<Picture>, PictureError> {
+    let standard = runs
+        .iter()
+        .find(|run| run.manifest.method == run.prepared.info.standard);
+    let Some(standard) = standard else {
+        return Ok(None);
+    };
+    let standard = traces(&standard.record, reference.quantity)?;
+    let mut panels: Vec<(String, Vec<Line>)> = Vec::new();
+    for run in runs {
+        let truth = traces_of(reference, &run.record)?;
+        let mine = traces(&run.record, reference.quantity)?;
+        for (receiver, y) in echo_series(&mine, &truth, &standard)? {
+            let title = place(run, &receiver);
+            let line = Line {
+                name: run.manifest.method.clone(),
+                x: truth.times().to_vec(),
+                y,
+            };
+            match panels.iter_mut().find(|(name, _)| *name == title) {
+                Some((_, lines)) => lines.push(line),
+                None => panels.push((title, vec![line])),
+            }
+        }
+    }
+    let floor = ranking.floor.as_ref().map(|floor| floor.value);
+    Ok(Some(Picture {
+        name: "echo",
+        title: "Echo against time",
+        caption: "Distance to the reference without echo, over the standard run's peak. The line is the floor of the reference.".into(),
+        drawing: EchoPlot { panels, floor }.draw()?,
+        raster: false,
+    }))
+}
+
+/// Echo of each method with its cost.
+fn bars(ranking: &Ranking) -> Result<Option<Picture>, PictureError> {
+    let ranked: Vec<_> = ranking
+        .methods
+        .iter()
+        .filter(|m| m.echo.is_some())
+        .collect();
+    if ranked.is_empty() {
+        return Ok(None);
+    }
+    let column = |title: &str, unit: &str, values: Vec<Option<f64>>| Bars {
+        title: title.to_owned(),
+        unit: unit.to_owned(),
+        values,
+    };
+    let drawing = BarPlot {
+        methods: ranked.iter().map(|m| m.method.clone()).collect(),
+        echo: column("echo ratio", "", ranked.iter().map(|m| m.echo).collect()),
+        worst: ranked.iter().map(|m| m.worst).collect(),
+        floor: ranking.floor.as_ref().map(|floor| floor.value),
+        costs: vec![
+            column("CPU time", "s", ranked.iter().map(|m| m.cpu_s).collect()),
+            column("unknowns", "", ranked.iter().map(|m| m.unknowns).collect()),
+        ],
+    }
+    .draw()?;
+    Ok(Some(Picture {
+        name: "ranking",
+        title: "Echo and cost",
+        caption: "Echo ratio of each method (log axis; zero is perfect) with what it costs. Methods at or below the floor cannot be told apart.".into(),
+        drawing,
+        raster: false,
+    }))
+}
+
+/// Velocity over place and time, methods side by side.
+fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
+    let fields: Vec<_> = runs
+        .iter()
+        .filter_map(|run| {
+            let field = run.record.lines.first()?.clone();
+            Some((run.manifest.method.clone(), field))
+        })
+        .collect();
+    let Some((_, field)) = fields.first() else {
+        return Ok(None);
+    };
+    let quantity = format!("velocity {}", field.name.trim_start_matches('v'));
+    let guides = receivers(runs[0])
+        .into_iter()
+        .map(|(label, [_, y])| Guide { position: y, label })
+        .collect();
+    let drawing = SpaceTimePlot {
+        quantity,
+        fields,
+        guides,
+        limit: None,
+    }
+    .draw()?;
+    Ok(Some(Picture {
+        name: "space-time",
+        title: "Waves in space and time",
+        caption: "Waves are slanted bands; a band that turns round at the base is echo. All methods share one scale.".into(),
+        drawing,
+        raster: true,
+    }))
+}
+
+/// Energy in the target.
+fn energy(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
+    let runs: Vec<&&Run> = runs
+        .iter()
+        .filter(|run| !run.record.energy.times.is_empty())
+        .collect();
+    if runs.is_empty() {
+        return Ok(None);
+    }
+    let lines = runs
+        .iter()
+        .map(|run| {
+            Ok(Line {
+                name: run.manifest.method.clone(),
+                x: run.record.energy.times.clone(),
+                y: target_energy(&run.record.energy)?,
+            })
+        })
+        .collect::<Result<_, NormError>>()?;
+    let drawing = EnergyPlot {
+        unit: "J/m".into(),
+        reference: None,
+        lines,
+    }
+    .draw()?;
+    Ok(Some(Picture {
+        name: "energy",
+        title: "Energy in the body",
+        caption: "Kinetic and strain energy of the body; what a method absorbs is gone.".into(),
+        drawing,
+        raster: false,
+    }))
+}
+
+fn traces_of_runs(runs: &[&Run], quantity: Quantity) -> Result<Vec<(String, Traces)>, NormError> {
+    runs.iter()
+        .map(|run| Ok((run.manifest.method.clone(), traces(&run.record, quantity)?)))
+        .collect()
+}
+
+/// The component that moves most.
+fn strongest(traces: &Traces) -> usize {
+    let peak = |axis: usize| {
+        traces
+            .receivers()
+            .iter()
+            .flat_map(|trace| trace.components.get(axis).into_iter().flatten())
+            .fold(0.0_f64, |m, v| m.max(v.abs()))
+    };
+    let axes = traces.receivers().first().map_or(1, |t| t.components.len());
+    (0..axes)
+        .max_by(|&a, &b| peak(a).total_cmp(&peak(b)))
+        .unwrap_or(0)
+}
+
+/// Names and places (m) of the receivers.
+fn receivers(run: &Run) -> Vec<(String, [f64; 2])> {
+    let probes = run.prepared.scene.problem().probes;
+    probes
+        .receivers
+        .into_iter()
+        .map(|r| (r.name, r.place))
+        .collect()
+}
+
+/// A receiver's title.
+fn place(run: &Run, name: &str) -> String {
+    receivers(run)
+        .into_iter()
+        .find(|(receiver, _)| receiver == name)
+        .map_or_else(
+            || name.to_owned(),
+            |(name, [x, y])| format!("{name} (x = {x} m, y = {y} m)"),
+        )
+}

@@ -1,0 +1,107 @@
+//! Solves prepared scenes, each on one thread, several at a time, and stores each as it ends.
+
+use crate::error::CaseError;
+use crate::prepare::Prepared;
+use crate::progress::Progress;
+use crate::provenance;
+use crate::store::{Manifest, Store};
+use anechoic_solver::record::{Cost, Record, SeriesTable, Status};
+use anechoic_solver::solve;
+use cpu_time::ThreadTime;
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// A scene with what it left.
+#[derive(Debug)]
+pub struct Run {
+    /// The scene as run.
+    pub prepared: Prepared,
+    /// How it ended and where it comes from.
+    pub manifest: Manifest,
+    /// What was recorded.
+    pub record: Record,
+}
+
+impl Run {
+    /// Were all steps made?
+    pub fn complete(&self) -> bool {
+        self.record.status == Status::Complete
+    }
+}
+
+/// Solves all scenes with `jobs` threads and stores each in turn; the order is kept.
+///
+/// A scene whose solver fails is stored as such and the others go on.
+///
+/// # Errors
+/// [`CaseError::Storage`] when a result cannot be written; what was written before stays.
+pub fn run_all(scenes: Vec<Prepared>, jobs: usize, store: &Store) -> Result<Vec<Run>, CaseError> {
+    let work = |p: &Prepared| (p.bill.points as u64) * (p.bill.steps as u64);
+    let progress = Progress::new(scenes.iter().map(work).sum());
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(jobs)
+        .build()
+        .map_err(|error| CaseError::Usage(format!("--jobs {jobs}: {error}")))?;
+    let runs = pool.install(|| {
+        scenes
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|scene| {
+                let run = run_one(scene, &progress);
+                store.save(&run).map(|()| run)
+            })
+            .collect()
+    });
+    progress.finish();
+    runs
+}
+
+/// Solves one scene on this thread and measures what it costs.
+fn run_one(prepared: Prepared, progress: &Progress) -> Run {
+    let problem = prepared.scene.problem();
+    let monitor = progress.monitor(prepared.bill.points);
+    let mut outcome = None;
+    let (wall, cpu) = (Instant::now(), ThreadTime::now());
+    let memory = allocation_counter::measure(|| outcome = Some(solve(&problem, &monitor)));
+    let (wall_s, cpu_s) = (wall.elapsed().as_secs_f64(), cpu.elapsed().as_secs_f64());
+    let mut record = match outcome.expect("measure calls its closure once") {
+        Ok(outcome) => {
+            let mut record = outcome.record;
+            if let Some(error) = outcome.error {
+                record.status = Status::Failed(error.to_string());
+            }
+            record
+        }
+        Err(error) => nothing(error.to_string()),
+    };
+    record.cost.wall_s = wall_s;
+    record.cost.cpu_s = cpu_s;
+    record.cost.peak_bytes = memory.bytes_max;
+    let hash = prepared.hash();
+    let manifest = Manifest {
+        case: prepared.info.name.to_owned(),
+        profile: prepared.profile.clone(),
+        method: prepared.method.clone(),
+        status: record.status.clone(),
+        cost: record.cost.clone(),
+        provenance: provenance::of(&hash),
+        hash,
+    };
+    Run {
+        prepared,
+        manifest,
+        record,
+    }
+}
+
+/// The record of a run that did not start.
+fn nothing(reason: String) -> Record {
+    Record {
+        status: Status::Failed(reason),
+        receivers: SeriesTable::default(),
+        energy: SeriesTable::default(),
+        lines: Vec::new(),
+        snapshots: Vec::new(),
+        cost: Cost::default(),
+    }
+}

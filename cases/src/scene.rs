@@ -1,0 +1,193 @@
+//! What a benchmark is to the program: a problem, its references and its claims.
+
+use crate::checks::Checks;
+use crate::field::Field;
+use crate::spec::BoundarySpec;
+use anechoic_reference::claim::{Claim, Evidence};
+use anechoic_reports::study::Finding;
+use anechoic_solver::problem::Problem;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::fmt::Debug;
+use toml::Table;
+
+/// A benchmark with the values it is run with, sides included.
+pub trait Scene: Debug + Send + Sync {
+    /// What the solver is given.
+    fn problem(&self) -> Problem<2>;
+
+    /// The sides as run.
+    fn boundary(&self) -> &BoundarySpec;
+
+    /// What must hold between fields; ranges of single fields are checked before.
+    fn check(&self, checks: &mut Checks<'_>);
+
+    /// Amplitude over which residuals are taken, in the quantity of the references.
+    fn pulse_amplitude(&self) -> f64;
+
+    /// When echoes are looked for.
+    fn windows(&self) -> Vec<Window>;
+
+    /// What is true at the receivers, at the given times (s).
+    ///
+    /// # Errors
+    /// The reason why there is no reference for this scene as it stands.
+    fn references(&self, times: &[f64]) -> Result<Vec<Reference>, String>;
+
+    /// What is claimed of the methods.
+    fn claims(&self) -> Vec<SceneClaim>;
+}
+
+/// The time in which a receiver's echo is looked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Window {
+    /// The receiver.
+    pub receiver: String,
+    /// Empty for the scene's own window; otherwise it is told apart as `RECEIVER:LABEL`.
+    pub label: String,
+    /// Start (s), itself excluded.
+    pub from_s: f64,
+    /// End (s), included; `None`: the end of the run.
+    pub to_s: Option<f64>,
+    /// Evidence and its name, where a paper says what is accepted in this window; `None`: that of
+    /// the reference.
+    pub stated_by: Option<(Evidence, &'static str)>,
+}
+
+impl Window {
+    /// The window's name in rows.
+    pub fn place(&self) -> String {
+        if self.label.is_empty() {
+            self.receiver.clone()
+        } else {
+            format!("{}:{}", self.receiver, self.label)
+        }
+    }
+}
+
+/// What a reference is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// What the boundaries as modelled would give exactly: it judges the solver.
+    Modelled,
+    /// What a boundary without echo would give: it judges the method.
+    NoEcho,
+}
+
+/// Which motion of a receiver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Displacement (m).
+    Displacement,
+    /// Velocity (m/s).
+    Velocity,
+}
+
+impl Quantity {
+    /// Letter in column names.
+    pub fn letter(self) -> char {
+        match self {
+            Quantity::Displacement => 'u',
+            Quantity::Velocity => 'v',
+        }
+    }
+}
+
+/// True series at the receivers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// Name in rows.
+    pub name: &'static str,
+    /// What it judges.
+    pub role: Role,
+    /// Kind of evidence.
+    pub evidence: Evidence,
+    /// Displacement or velocity.
+    pub quantity: Quantity,
+    /// One entry a receiver: name, and x and y components at the asked times.
+    pub receivers: Vec<(String, [Vec<f64>; 2])>,
+    /// Separate pulses with silence between them, so that arrivals can be timed.
+    pub pulses: bool,
+}
+
+/// A claim, and why it does not apply to the scene as run, if so.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneClaim {
+    /// The claim.
+    pub claim: Claim,
+    /// Reason why it is not evaluated.
+    pub not_here: Option<String>,
+}
+
+/// A named TOML snippet laid over the scene's values.
+#[derive(Debug)]
+pub struct Overlay {
+    /// Name in flags.
+    pub name: &'static str,
+    /// What it changes, in a line.
+    pub summary: &'static str,
+    /// The values.
+    pub toml: &'static str,
+}
+
+impl Overlay {
+    /// An overlay.
+    pub const fn new(name: &'static str, summary: &'static str, toml: &'static str) -> Self {
+        Overlay {
+            name,
+            summary,
+            toml,
+        }
+    }
+}
+
+/// A benchmark as the registry knows it.
+#[derive(Debug)]
+pub struct SceneInfo {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// What it is, in a line.
+    pub title: &'static str,
+    /// What happens in it, in a few sentences.
+    pub summary: &'static str,
+    /// Paper, section.
+    pub source: &'static str,
+    /// Its fields, in the order in which they are shown.
+    pub fields: &'static [&'static [Field]],
+    /// Discretisation, point mode and duration.
+    pub profiles: &'static [Overlay],
+    /// Other readings of the paper, other loads.
+    pub presets: &'static [Overlay],
+    /// Boundary methods that apply, as presets over sides.
+    pub methods: &'static [Overlay],
+    /// What the paper says and how it fares: finding, place, note.
+    pub ledger: &'static [(Finding, &'static str, &'static str)],
+    /// The method that absorbs nothing, over which echoes are taken.
+    pub standard: &'static str,
+    /// The scene's own values.
+    pub defaults: fn() -> Table,
+    /// The scene with checked values.
+    pub build: fn(Table) -> Result<Box<dyn Scene>, toml::de::Error>,
+}
+
+impl SceneInfo {
+    /// All fields in one list.
+    pub fn all_fields(&self) -> Vec<&'static Field> {
+        self.fields.iter().flat_map(|group| group.iter()).collect()
+    }
+}
+
+/// A scene's own values as a table.
+pub fn defaults<S: Default + Serialize>() -> Table {
+    Table::try_from(S::default()).expect("scenes are tables of plain values")
+}
+
+/// A scene out of a table.
+///
+/// # Errors
+/// What the table lacks; cannot happen for tables whose fields were checked.
+pub fn build<S: Scene + DeserializeOwned + 'static>(
+    table: Table,
+) -> Result<Box<dyn Scene>, toml::de::Error> {
+    Ok(Box::new(table.try_into::<S>()?))
+}

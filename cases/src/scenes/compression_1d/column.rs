@@ -1,0 +1,223 @@
+//! What is true of the column, and what is claimed of its boundaries.
+//!
+//! Velocities are those of d'Alembert's images: T = 2H/c is the way down and up. A receiver at height
+//! y sees the pulse after (H - y)/c and the echo of the base after (H + y)/c.
+
+use super::Compression1d;
+use crate::checks::{inner_thickness, number};
+use crate::scene::{Quantity, Reference, Role, SceneClaim, Window};
+use crate::spec::ReceiverSpec;
+use anechoic_reference::analytic::dalembert::{Base, Dalembert, Top};
+use anechoic_reference::claim::{Accept, Claim, Evidence};
+use anechoic_solver::boundary::SideMethod;
+use anechoic_solver::problem::PointMode;
+
+/// Strain of the pulse, amplitude over c, up to which the body counts as linear: its effect on the
+/// wave is of this order, far below the 1 % of the claims.
+const LINEAR_STRAIN: f64 = 1e-4;
+
+/// Where the echo of overlapping pulses is over: this share of a pulse behind their end.
+const TAIL: f64 = 0.15;
+
+/// The paper's c (m/s), for which its printed times hold.
+const PAPER_SPEED: f64 = 62.844;
+
+/// Windows of a receiver: its own, and the paper's 3..4 s.
+pub(super) fn windows(scene: &Compression1d, receiver: &ReceiverSpec) -> Vec<Window> {
+    let c = scene.material.elastic().p_speed();
+    let pulse = scene.pulse().end();
+    let echo = (scene.body.height_m + receiver.y_m) / c;
+    let direct_over = (scene.body.height_m - receiver.y_m) / c + pulse;
+    // At the top the echo comes into silence: look from its arrival on. Near the base it runs into
+    // the pulse itself: look when both are over (1.45 s at B), for what comes after.
+    let from_s = if direct_over <= echo {
+        echo
+    } else {
+        echo + (1.0 + TAIL) * pulse
+    };
+    let window = |label: &str, from_s, to_s, stated_by| Window {
+        receiver: receiver.name.clone(),
+        label: label.to_owned(),
+        from_s,
+        to_s,
+        stated_by,
+    };
+    let mut windows = vec![window("", from_s, None, None)];
+    if scene.time.end_s >= 4.0 {
+        let paper = (Evidence::Paper, "S21 section 3.1");
+        windows.push(window("3-4s", 3.0, Some(4.0), Some(paper)));
+    }
+    windows
+}
+
+/// Both references: with the base as modelled, where a closed form knows it, and without echo.
+pub(super) fn references(scene: &Compression1d, times: &[f64]) -> Result<Vec<Reference>, String> {
+    let sides = &scene.boundary;
+    for (name, side, wanted) in [
+        ("left", &sides.left, "roller"),
+        ("right", &sides.right, "roller"),
+        ("top", &sides.top, "free"),
+    ] {
+        if side.method != wanted {
+            return Err(format!(
+                "d'Alembert's column has boundary.{name} = {wanted}, here it is {}",
+                side.method
+            ));
+        }
+    }
+    let mut references = vec![series(
+        scene,
+        times,
+        "dalembert-no-echo",
+        Role::NoEcho,
+        Base::Absorbing,
+    )?];
+    if let Some(base) = base(&sides.bottom) {
+        references.push(series(scene, times, "dalembert", Role::Modelled, base)?);
+    }
+    Ok(references)
+}
+
+/// What a closed form knows of the base; a damping layer has none in time.
+fn base(bottom: &SideMethod) -> Option<Base> {
+    match bottom.method.as_str() {
+        "roller" | "fixed" => Some(Base::Roller),
+        "free" => Some(Base::Dashpot {
+            impedance_ratio: 0.0,
+        }),
+        "dashpot" => Some(Base::Dashpot {
+            impedance_ratio: number(bottom, "impedance").unwrap_or(1.0),
+        }),
+        "extended" if bottom.params.is_empty() => Some(Base::Absorbing),
+        _ => None,
+    }
+}
+
+fn series(
+    scene: &Compression1d,
+    times: &[f64],
+    name: &'static str,
+    role: Role,
+    base: Base,
+) -> Result<Reference, String> {
+    let pulse = scene.pulse();
+    let speed = scene.material.elastic().p_speed();
+    let column = Dalembert::new(scene.body.height_m, speed, base, Top::Free, pulse.end())
+        .map_err(|error| error.to_string())?;
+    let receivers = scene
+        .receivers
+        .iter()
+        .map(|receiver| {
+            // The pulse is that of the y-up velocity, so the solution is y-up as well.
+            let vy: Result<Vec<f64>, _> = times
+                .iter()
+                .map(|&t| column.velocity(|t| pulse.value(t), receiver.y_m, t))
+                .collect();
+            let vy = vy.map_err(|error| error.to_string())?;
+            Ok((receiver.name.clone(), [vec![0.0; times.len()], vy]))
+        })
+        .collect::<Result<_, String>>()?;
+    Ok(Reference {
+        name,
+        role,
+        evidence: Evidence::Analytic,
+        quantity: Quantity::Velocity,
+        receivers,
+        pulses: true,
+    })
+}
+
+/// The claims, for the scene as run.
+pub(super) fn claims(scene: &Compression1d) -> Vec<SceneClaim> {
+    let mut claims = Vec::new();
+    for receiver in &scene.receivers {
+        let at = receiver.name.as_str();
+        let mut claim = |method: &str, metric: &str, place: &str, max, evidence, why: &str| {
+            claims.push(SceneClaim {
+                not_here: not_here(scene, receiver, evidence),
+                claim: Claim {
+                    method: method.to_owned(),
+                    metric: metric.to_owned(),
+                    place: place.to_owned(),
+                    accept: Accept::at_most(max),
+                    evidence,
+                    why: why.to_owned(),
+                },
+            });
+        };
+        let analytic = Evidence::Analytic;
+        claim(
+            "fixed",
+            "peak_deviation",
+            at,
+            0.03,
+            analytic,
+            "peaks of the pulse and its echoes at h = 1 m: about 40 cells a pulse, whose kinks carry the rest",
+        );
+        claim(
+            "fixed",
+            "arrival_s",
+            at,
+            0.02,
+            analytic,
+            "four steps of 0.005 s, a third of the time a wave needs for a cell",
+        );
+        claim(
+            "dashpot",
+            "residual",
+            at,
+            0.01,
+            analytic,
+            "a dashpot is exact in 1D; what is left is dispersion of the half sine's kinks",
+        );
+        claim(
+            "extended",
+            "residual",
+            at,
+            0.01,
+            analytic,
+            "nothing comes back before the end: dispersion alone, bounded as for the dashpot",
+        );
+        for method in ["dashpot", "damping-layer"] {
+            claim(
+                method,
+                "residual",
+                &format!("{at}:3-4s"),
+                0.15,
+                Evidence::Paper,
+                "S21 section 3.1: below 15 % of the pulse at t = 3 s",
+            );
+        }
+    }
+    claims
+}
+
+/// Why a claim does not apply to this receiver of the scene as it stands.
+fn not_here(scene: &Compression1d, receiver: &ReceiverSpec, evidence: Evidence) -> Option<String> {
+    let layer = inner_thickness(&scene.boundary.bottom);
+    if layer > 0.0 && receiver.y_m <= layer {
+        return Some(format!(
+            "{} lies inside the damping layer (heights 0..{layer} m)",
+            receiver.name
+        ));
+    }
+    let c = scene.material.elastic().p_speed();
+    if evidence == Evidence::Paper {
+        let papers = (c / PAPER_SPEED - 1.0).abs() < 0.01 && scene.body.height_m == 50.0;
+        return (!papers).then(|| {
+            format!(
+                "the paper's times hold for 63 m/s and 50 m, not for {c:.1} m/s and {} m",
+                scene.body.height_m
+            )
+        });
+    }
+    let (h, dt, strain) = (scene.grid.h_m, scene.dt(), scene.source.amplitude_m_s / c);
+    if scene.points.mode == PointMode::Moving && strain > LINEAR_STRAIN {
+        return Some(format!(
+            "the pulse's strain of {strain:.1e} is finite, so d'Alembert does not hold; use --preset linear"
+        ));
+    }
+    (h > 1.0 || dt > 0.005 * h * (1.0 + 1e-9)).then(|| {
+        format!("stated for cells of at most 1 m and steps of at most 0.005 s per metre of cell, not for {h} m and {dt} s")
+    })
+}

@@ -1,0 +1,268 @@
+//! The parts that scenes share, with the keys that are the same everywhere.
+
+use crate::field::{Field, Kind, Range};
+use anechoic_solver::boundary::SideMethod;
+use anechoic_solver::probe::{LineProbe, Receiver};
+use anechoic_solver::problem::{Aabb, Elastic, PointMode, Scheme, SolverKind, Transfer};
+use serde::{Deserialize, Serialize};
+
+/// Background grid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GridSpec {
+    /// Edge length of a cell (m).
+    pub h_m: f64,
+}
+
+/// A rectangular body with its lower left corner at the origin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodySpec {
+    /// Width (m).
+    pub width_m: f64,
+    /// Height (m).
+    pub height_m: f64,
+}
+
+impl BodySpec {
+    /// Width and height (m).
+    pub fn size(&self) -> [f64; 2] {
+        [self.width_m, self.height_m]
+    }
+
+    /// The solver's box.
+    pub fn target(&self) -> Aabb<2> {
+        Aabb {
+            lower: [0.0; 2],
+            upper: self.size(),
+        }
+    }
+
+    /// Vertical velocity along the middle from bottom to top, every so many steps.
+    pub fn middle_line(&self, every: usize) -> LineProbe<2> {
+        let x = 0.5 * self.width_m;
+        LineProbe {
+            from: [x, 0.0],
+            to: [x, self.height_m],
+            samples: 101,
+            component: 1,
+            every,
+        }
+    }
+}
+
+/// Time integration.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TimeSpec {
+    /// Scheme.
+    pub scheme: Scheme,
+    /// Time step (s); left out, the scene derives it from the cell size.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dt_s: Option<f64>,
+    /// End of the run (s).
+    pub end_s: f64,
+}
+
+/// Material points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PointsSpec {
+    /// Do they move?
+    pub mode: PointMode,
+    /// Transfer between points and nodes.
+    pub transfer: Transfer,
+    /// Points in a cell, all directions together.
+    pub per_cell: usize,
+}
+
+/// Linear solver.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SolverSpec {
+    /// Relative tolerance.
+    pub rel_tol: f64,
+    /// Which one.
+    pub kind: SolverKind,
+}
+
+/// Linear elastic material.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MaterialSpec {
+    /// Young's modulus (Pa).
+    #[serde(rename = "E_Pa")]
+    pub youngs_modulus: f64,
+    /// Poisson's ratio.
+    pub nu: f64,
+    /// Density (kg/m3).
+    pub rho_kg_m3: f64,
+}
+
+impl MaterialSpec {
+    /// The solver's material.
+    pub fn elastic(&self) -> Elastic {
+        Elastic {
+            youngs_modulus: self.youngs_modulus,
+            poissons_ratio: self.nu,
+            density: self.rho_kg_m3,
+        }
+    }
+}
+
+/// A place whose motion is recorded.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReceiverSpec {
+    /// Name in rows.
+    pub name: String,
+    /// Place (m).
+    pub x_m: f64,
+    /// Place (m).
+    pub y_m: f64,
+}
+
+impl ReceiverSpec {
+    /// The receiver `name` at (`x_m`, `y_m`).
+    pub fn new(name: &str, x_m: f64, y_m: f64) -> Self {
+        ReceiverSpec {
+            name: name.to_owned(),
+            x_m,
+            y_m,
+        }
+    }
+
+    /// The solver's receiver.
+    pub fn probe(&self) -> Receiver<2> {
+        Receiver {
+            name: self.name.clone(),
+            place: [self.x_m, self.y_m],
+        }
+    }
+}
+
+/// The boundary method of each side.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BoundarySpec {
+    /// x smallest.
+    pub left: SideMethod,
+    /// x largest.
+    pub right: SideMethod,
+    /// y smallest.
+    pub bottom: SideMethod,
+    /// y largest.
+    pub top: SideMethod,
+}
+
+impl BoundarySpec {
+    /// As the solver wants them: by axis, lower end first.
+    pub fn sides(&self) -> [[SideMethod; 2]; 2] {
+        [
+            [self.left.clone(), self.right.clone()],
+            [self.bottom.clone(), self.top.clone()],
+        ]
+    }
+
+    /// Sides by name.
+    pub fn named(&self) -> [(&'static str, &SideMethod); 4] {
+        [
+            ("left", &self.left),
+            ("right", &self.right),
+            ("bottom", &self.bottom),
+            ("top", &self.top),
+        ]
+    }
+}
+
+/// Fields of discretisation and solver.
+pub const NUMERICS: &[Field] = &[
+    Field::new(
+        "basis",
+        Kind::Word(&["linear"]),
+        "shape functions on the grid",
+    ),
+    Field::new(
+        "grid.h_m",
+        Kind::Number(Range::POSITIVE),
+        "edge length of a cell (m)",
+    ),
+    Field::new(
+        "time.scheme",
+        Kind::Word(&["newmark", "quasi-static"]),
+        "time integration",
+    ),
+    Field::new(
+        "time.dt_s",
+        Kind::OptionalNumber(Range::POSITIVE, "left out: follows the cell size"),
+        "time step (s)",
+    ),
+    Field::new(
+        "time.end_s",
+        Kind::Number(Range::POSITIVE),
+        "end of the run (s)",
+    ),
+    Field::new(
+        "points.mode",
+        Kind::Word(&["moving", "frozen"]),
+        "do material points move?",
+    ),
+    Field::new(
+        "points.transfer",
+        Kind::Word(&["keep", "affine", "flip", "pic"]),
+        "between points and nodes; keep needs frozen points",
+    ),
+    Field::new(
+        "points.per_cell",
+        Kind::Whole(1, 100),
+        "points in a cell, all directions together: a square",
+    ),
+    Field::new(
+        "solver.rel_tol",
+        Kind::Number(Range::inside(0.0, 1.0)),
+        "relative tolerance of the linear solver",
+    ),
+    Field::new(
+        "solver.kind",
+        Kind::Word(&["auto", "cg", "direct"]),
+        "linear solver",
+    ),
+];
+
+/// Fields of a rectangular body.
+pub const BODY: &[Field] = &[
+    Field::new(
+        "body.width_m",
+        Kind::Number(Range::POSITIVE),
+        "width (m): whole cells",
+    ),
+    Field::new(
+        "body.height_m",
+        Kind::Number(Range::POSITIVE),
+        "height (m): whole cells",
+    ),
+];
+
+/// Fields of a linear elastic material.
+pub const ELASTIC: &[Field] = &[
+    Field::new(
+        "material.E_Pa",
+        Kind::Number(Range::POSITIVE),
+        "Young's modulus (Pa)",
+    ),
+    Field::new(
+        "material.nu",
+        Kind::Number(Range::inside(-1.0, 0.5)),
+        "Poisson's ratio",
+    ),
+    Field::new(
+        "material.rho_kg_m3",
+        Kind::Number(Range::POSITIVE),
+        "density (kg/m3)",
+    ),
+];
+
+/// Receivers and sides of a 2D scene.
+pub const PROBES_AND_SIDES: &[Field] = &[
+    Field::new(
+        "receivers",
+        Kind::Receivers,
+        "tracers whose motion is recorded",
+    ),
+    Field::new("boundary.left", Kind::Side, "x smallest"),
+    Field::new("boundary.right", Kind::Side, "x largest"),
+    Field::new("boundary.bottom", Kind::Side, "y smallest"),
+    Field::new("boundary.top", Kind::Side, "y largest"),
+];

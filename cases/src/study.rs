@@ -1,0 +1,222 @@
+//! A study: runs that are judged and shown together. Everything here is made from records alone, so
+//! that `report` makes the same again without solving.
+
+use crate::error::CaseError;
+use crate::judge::{REFERENCE, judge_runs};
+use crate::pictures::{self, Picture};
+use crate::runner::Run;
+use crate::store::{json, load, read_json, save_rows, write_file};
+use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
+use anechoic_reports::html;
+use anechoic_reports::plot::PlotError;
+use anechoic_reports::ranking::{Floor, Ranking};
+use anechoic_reports::row::Row;
+use anechoic_reports::study::{self as reports, Figure, LedgerEntry, RunSummary};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// The metric that methods are ranked by.
+const RANKED_BY: &str = "echo_ratio";
+
+/// Which runs make a study; stored beside its report.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StudyFile {
+    /// The command that made it.
+    pub command: String,
+    /// Folders of the runs, below the case's folder, in the order of the comparison.
+    pub runs: Vec<PathBuf>,
+}
+
+/// A study read back.
+#[derive(Debug)]
+pub struct Study {
+    /// The case's folder.
+    pub folder: PathBuf,
+    /// The command that made it.
+    pub command: String,
+    /// Its runs.
+    pub runs: Vec<Run>,
+}
+
+/// A judged and published study.
+#[derive(Debug)]
+pub struct Published {
+    /// The runs.
+    pub runs: Vec<Run>,
+    /// All rows.
+    pub rows: Vec<Row>,
+    /// Methods by their echo; `None` when no echo ratio was measured.
+    pub ranking: Option<Ranking>,
+    /// Why there is no reference, if there is none.
+    pub reference_missing: Option<String>,
+    /// The report.
+    pub report: PathBuf,
+}
+
+/// Name of the study's file.
+const STUDY: &str = "study.json";
+
+/// Judges the runs and writes summary, JUnit, pictures and report into the case's `folder`.
+///
+/// # Errors
+/// [`CaseError::Storage`] and [`CaseError::Report`].
+pub fn publish(folder: &Path, runs: Vec<Run>, command: &str) -> Result<Published, CaseError> {
+    let judged = judge_runs(&runs);
+    for run in &runs {
+        save_rows(folder, &run.manifest, &judged.rows)?;
+    }
+    let file = StudyFile {
+        command: command.to_owned(),
+        runs: runs.iter().map(|run| run.manifest.folder()).collect(),
+    };
+    write_file(&folder.join(STUDY), &json(&file)?)?;
+    let text = |what: &str, made: Result<String, _>| made.map_err(|e| failed(what, &e));
+    for (name, made) in [
+        (
+            "summary.json",
+            text("summary.json", summary_json(&judged.rows))?,
+        ),
+        (
+            "summary.csv",
+            text("summary.csv", summary_csv(&judged.rows))?,
+        ),
+        ("junit.xml", text("junit.xml", junit_xml(&judged.rows))?),
+    ] {
+        write_file(&folder.join(name), made.as_bytes())?;
+    }
+    let ranking = rank(&judged.rows);
+    let pictures = pictures::draw(&runs, &ranking).map_err(|e| failed("the pictures", &e))?;
+    let figures = pictures
+        .iter()
+        .map(|picture| save_picture(folder, picture))
+        .collect::<Result<_, _>>()?;
+    let ranked = ranking.methods.iter().any(|method| method.echo.is_some());
+    let ranking = ranked.then_some(ranking);
+    let report = folder.join("report.html");
+    if let Some(study) = describe(&runs, &judged.rows, ranking.clone(), figures, command) {
+        write_file(&report, html::report(&study).as_bytes())?;
+    }
+    Ok(Published {
+        runs,
+        rows: judged.rows,
+        ranking,
+        reference_missing: judged.reference_missing,
+        report,
+    })
+}
+
+/// The report's content; none without runs.
+fn describe(
+    runs: &[Run],
+    rows: &[Row],
+    ranking: Option<Ranking>,
+    figures: Vec<Figure>,
+    command: &str,
+) -> Option<reports::Study> {
+    let first = runs.first()?;
+    let info = first.prepared.info;
+    Some(reports::Study {
+        case: info.name.to_owned(),
+        title: info.title.to_owned(),
+        summary: format!("{} {}", info.summary, info.source),
+        profile: first.manifest.profile.clone(),
+        command: command.to_owned(),
+        rows: rows.to_vec(),
+        ranking,
+        runs: runs
+            .iter()
+            .map(|run| RunSummary {
+                method: run.manifest.method.clone(),
+                status: run.record.status.clone(),
+                cost: run.record.cost.clone(),
+                provenance: run.manifest.provenance.clone(),
+            })
+            .collect(),
+        ledger: info
+            .ledger
+            .iter()
+            .map(|(finding, place, note)| LedgerEntry {
+                finding: *finding,
+                place: (*place).to_owned(),
+                note: (*note).to_owned(),
+            })
+            .collect(),
+        figures,
+    })
+}
+
+/// Ranks the methods; the floor is what an extended domain leaves, which has no boundary to blame.
+fn rank(rows: &[Row]) -> Ranking {
+    let rows: Vec<Row> = rows
+        .iter()
+        .filter(|row| row.method != REFERENCE)
+        .cloned()
+        .collect();
+    let unbounded = Ranking::from_rows(&rows, RANKED_BY, None);
+    let floor = unbounded
+        .methods
+        .iter()
+        .find(|method| method.method == "extended")
+        .and_then(|method| method.echo)
+        .map(|value| Floor {
+            value,
+            how: "what the extended domain leaves on the same mesh: dispersion alone".into(),
+        });
+    Ranking::from_rows(&rows, RANKED_BY, floor)
+}
+
+/// Writes a picture as SVG and PNG, and gives it as the report shows it.
+fn save_picture(folder: &Path, picture: &Picture) -> Result<Figure, CaseError> {
+    let wrong = |e: PlotError| failed(picture.name, &e);
+    let path = folder.join(picture.name);
+    let svg = picture.drawing.to_svg().map_err(wrong)?;
+    let png = picture.drawing.to_png().map_err(wrong)?;
+    write_file(&path.with_extension("svg"), svg.as_bytes())?;
+    write_file(&path.with_extension("png"), &png)?;
+    let figure = if picture.raster {
+        Figure::of_field
+    } else {
+        Figure::of_lines
+    };
+    figure(picture.title, &picture.caption, &picture.drawing).map_err(wrong)
+}
+
+/// The studies below a folder: it is a case's folder, or holds some.
+///
+/// # Errors
+/// [`CaseError::NoRecords`], and what is wrong with a record.
+pub fn find_studies(folder: &Path) -> Result<Vec<Study>, CaseError> {
+    let mut folders = vec![folder.to_owned()];
+    let listing = std::fs::read_dir(folder).map_err(|source| CaseError::Read {
+        path: folder.to_owned(),
+        source,
+    })?;
+    let mut below: Vec<PathBuf> = listing.flatten().map(|entry| entry.path()).collect();
+    below.sort();
+    folders.extend(below);
+    let mut studies = Vec::new();
+    for folder in folders.iter().filter(|f| f.join(STUDY).is_file()) {
+        let file: StudyFile = read_json(&folder.join(STUDY))?;
+        let runs = file
+            .runs
+            .iter()
+            .map(|run| load(&folder.join(run)))
+            .collect::<Result<_, _>>()?;
+        studies.push(Study {
+            folder: folder.clone(),
+            command: file.command,
+            runs,
+        });
+    }
+    if studies.is_empty() {
+        return Err(CaseError::NoRecords(folder.to_owned()));
+    }
+    Ok(studies)
+}
+
+fn failed(what: &str, error: &dyn std::fmt::Display) -> CaseError {
+    CaseError::Report {
+        what: what.to_owned(),
+        reason: error.to_string(),
+    }
+}
