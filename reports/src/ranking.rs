@@ -1,5 +1,6 @@
 //! Methods in the order of their echo, with what they cost beside it.
 
+use crate::judge::RUN;
 use crate::norms::{group_of, group_worst};
 use crate::row::Row;
 use serde::{Deserialize, Serialize};
@@ -55,7 +56,11 @@ impl Ranking {
             }
         }
         let limit = floor.as_ref().map_or(0.0, |f| f.value);
-        let mut methods: Vec<Ranked> = names.iter().map(|name| entry(rows, name, metric)).collect();
+        let groups = groups_of(rows, metric);
+        let mut methods: Vec<Ranked> = names
+            .iter()
+            .map(|name| entry(rows, name, metric, &groups))
+            .collect();
         methods.sort_by(|a, b| {
             let key = |m: &Ranked| m.echo.map_or(f64::INFINITY, |e| e.max(limit));
             let cpu = |m: &Ranked| m.cpu_s.unwrap_or(f64::INFINITY);
@@ -85,33 +90,46 @@ impl Ranking {
     }
 }
 
-fn entry(rows: &[Row], method: &str, metric: &str) -> Ranked {
+/// The groups at which `metric` was measured for any method.
+fn groups_of<'a>(rows: &'a [Row], metric: &str) -> Vec<&'a str> {
+    let mut groups: Vec<&str> = Vec::new();
+    for row in rows.iter().filter(|row| row.metric == metric) {
+        let place = row.place.as_str();
+        let is_group = group_of(place) == place && !place.contains(':') && place != RUN;
+        if is_group && !groups.contains(&place) {
+            groups.push(place);
+        }
+    }
+    groups
+}
+
+/// A method's line; its echo needs every group, so that no method gains by what it lacks.
+fn entry(rows: &[Row], method: &str, metric: &str, groups: &[&str]) -> Ranked {
     let value = |metric: &str, place: &str| {
         rows.iter()
             .find(|r| r.method == method && r.metric == metric && r.place == place)
             .and_then(|r| r.value)
     };
-    let cost = |metric| value(metric, crate::judge::RUN);
-    let mut groups: Vec<(&str, f64)> = Vec::new();
-    for row in rows {
-        let is_group = group_of(&row.place) == row.place && !row.place.contains(':');
-        let known = groups.iter().any(|(place, _)| *place == row.place);
-        if row.method == method && row.metric == metric && is_group && !known {
-            groups.extend(row.value.map(|v| (row.place.as_str(), v)));
-        }
-    }
-    let mean = groups.iter().map(|(_, v)| v).sum::<f64>() / groups.len() as f64;
-    let worst = groups
-        .iter()
-        .map(|(place, mean)| value(metric, &group_worst(place)).unwrap_or(*mean))
-        .reduce(f64::max);
+    let means: Option<Vec<f64>> = groups.iter().map(|group| value(metric, group)).collect();
+    let means = means.filter(|means| !means.is_empty());
+    let echo = means
+        .as_ref()
+        .map(|means| means.iter().sum::<f64>() / means.len() as f64);
+    // A receiver that is its own group has no row of its own for the worst.
+    let worst = means.and_then(|means| {
+        let worst = groups
+            .iter()
+            .zip(means)
+            .map(|(group, mean)| value(metric, &group_worst(group)).unwrap_or(mean));
+        worst.reduce(f64::max)
+    });
     Ranked {
         method: method.to_owned(),
-        echo: (!groups.is_empty()).then_some(mean),
+        echo,
         worst,
-        cpu_s: cost("cpu_s"),
-        unknowns: cost("unknowns"),
-        peak_bytes: cost("peak_bytes"),
+        cpu_s: value("cpu_s", RUN),
+        unknowns: value("unknowns", RUN),
+        peak_bytes: value("peak_bytes", RUN),
         rank: None,
     }
 }
@@ -135,8 +153,11 @@ mod tests {
             at("fixed", "echo_ratio", "B1", 55.0),
             at("fixed", "echo_ratio", "B:worst", 1.3),
             at("pml", "echo_ratio", "A", 1e-4),
+            at("pml", "echo_ratio", "B", 1e-4),
             at("pml", "cpu_s", "run", 8.0),
             at("extended", "echo_ratio", "A", 2e-4),
+            at("extended", "echo_ratio", "B", 2e-4),
+            at("free", "echo_ratio", "A", 1e-9),
             at("extended", "cpu_s", "run", 5.0),
             at("dashpot", "cpu_s", "run", 1.0),
         ];
@@ -160,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn groups_count_once_and_the_unmeasured_come_last() {
+    fn groups_count_once_and_what_lacks_one_comes_last() {
         let ranking = ranking(0.0);
         assert_eq!(
             order(&ranking),
@@ -168,7 +189,8 @@ mod tests {
                 ("pml", Some(1)),
                 ("extended", Some(2)),
                 ("fixed", Some(3)),
-                ("dashpot", None)
+                ("dashpot", None),
+                ("free", None)
             ]
         );
         let fixed = &ranking.methods[2];
@@ -185,7 +207,8 @@ mod tests {
                 ("extended", Some(1)),
                 ("pml", Some(1)),
                 ("fixed", Some(3)),
-                ("dashpot", None)
+                ("dashpot", None),
+                ("free", None)
             ]
         );
         assert!(ranking.below_floor(2e-4) && !ranking.below_floor(0.9));

@@ -1,12 +1,34 @@
 //! What moves: grid, points, kernels, boundary methods, time integration.
 //!
 //! A [`problem::Problem`] goes in, a [`record::Record`] comes out; see [`solve`].
+//!
+//! | module | what |
+//! |---|---|
+//! | [`problem`], [`probe`], [`wavelet`] | the problem as a caller puts it |
+//! | [`boundary`] | one file a boundary method |
+//! | [`grid`], [`points`], [`basis`] | background grid, material points, shape functions |
+//! | [`material`] | one file a constitutive model |
+//! | [`physics`] | region kernels, terms on nodes, the model that joins them |
+//! | [`time`], [`linear`] | integrators, Newton, sparse solvers |
+//! | [`record`], [`error`] | what comes out |
 
+pub mod basis;
 pub mod boundary;
+mod drive;
 pub mod error;
+pub mod grid;
+pub mod linear;
+pub mod material;
+pub mod physics;
+pub mod points;
 pub mod probe;
 pub mod problem;
 pub mod record;
+mod run;
+mod sampler;
+pub mod setup;
+pub mod tensor;
+pub mod time;
 pub mod wavelet;
 
 use error::SolverError;
@@ -53,22 +75,16 @@ pub struct Bill {
 /// [`SolverError::Setup`] when the problem cannot be set up; failures during the run are in
 /// [`Outcome::error`], beside what was computed before.
 pub fn solve<const D: usize>(
-    _problem: &Problem<D>,
-    _monitor: &dyn Monitor,
+    problem: &Problem<D>,
+    monitor: &dyn Monitor,
 ) -> Result<Outcome, SolverError> {
-    Err(SolverError::Setup {
-        field: "solver".into(),
-        reason: "not built yet".into(),
-    })
+    run::run(problem, monitor)
 }
 
 /// The bill of a problem.
 ///
 /// # Errors
 /// [`SolverError::Setup`] as for [`solve`].
-pub fn bill<const D: usize>(_problem: &Problem<D>) -> Result<Bill, SolverError> {
-    Err(SolverError::Setup {
-        field: "solver".into(),
-        reason: "not built yet".into(),
-    })
+pub fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverError> {
+    setup::bill(problem)
 }

@@ -174,7 +174,7 @@ pub enum Drive<const D: usize> {
 pub struct Problem<const D: usize> {
     /// The body of interest; layers may lie outside it.
     pub target: Aabb<D>,
-    /// Edge length of a cell (m).
+    /// Largest edge of a cell (m); cells are made to fit the body.
     pub cell_size: f64,
     /// Shape functions.
     pub basis: BasisKind,

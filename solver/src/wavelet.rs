@@ -56,6 +56,22 @@ impl Pulse {
             }
     }
 
+    /// Integral from 0 to `t` (s).
+    pub fn integral(&self, t: f64) -> f64 {
+        let w = 2.0 * PI * self.frequency;
+        let inside = t.clamp(0.0, self.end());
+        self.amplitude
+            * match self.wavelet {
+                Wavelet::Ricker => {
+                    let b = (PI * self.frequency).powi(2);
+                    let primitive = |s: f64| s * (-b * s * s).exp();
+                    primitive(t - self.t0) - primitive(-self.t0)
+                }
+                Wavelet::Sine | Wavelet::HalfSine => (1.0 - (w * inside).cos()) / w,
+                Wavelet::SineSquared => 0.5 * inside - (2.0 * w * inside).sin() / (4.0 * w),
+            }
+    }
+
     /// Derivative at time `t` (1/s).
     pub fn rate(&self, t: f64) -> f64 {
         let outside = !(0.0..=self.end()).contains(&t);
@@ -79,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rate_is_the_derivative_of_value() {
+    fn rate_value_and_integral_belong_together() {
         let step = 1e-6;
         for wavelet in [
             Wavelet::Sine,

@@ -1,1 +1,104 @@
-//! The acceptance gates live in `tests/`.
+//! What the gates share: small problems, and a monitor that lets them run.
+
+use anechoic_solver::Monitor;
+use anechoic_solver::boundary::SideMethod;
+use anechoic_solver::probe::{Probes, Receiver};
+use anechoic_solver::problem::{
+    Aabb, BasisKind, Drive, Elastic, PointMode, Problem, Scheme, Side, SolverKind, Transfer,
+};
+use anechoic_solver::record::Record;
+use anechoic_solver::wavelet::{Pulse, Wavelet};
+
+/// Lets every step pass.
+#[derive(Debug)]
+pub struct Unwatched;
+
+impl Monitor for Unwatched {
+    fn step(&self, _done: usize, _total: usize) -> bool {
+        true
+    }
+}
+
+/// Solves and insists on success.
+///
+/// # Panics
+/// When the problem cannot be set up or the run fails.
+pub fn solved(problem: &Problem<2>) -> Record {
+    let outcome = anechoic_solver::solve(problem, &Unwatched).expect("the problem is well put");
+    assert_eq!(outcome.error, None);
+    outcome.record
+}
+
+/// A block of 4 x 3 m, free all round, linear elastic with all wave speeds of a few m/s.
+pub fn block(transfer: Transfer, point_mode: PointMode) -> Problem<2> {
+    let free = || SideMethod::new("free");
+    Problem {
+        target: Aabb {
+            lower: [0.0, 0.0],
+            upper: [4.0, 3.0],
+        },
+        cell_size: 0.5,
+        basis: BasisKind::Linear,
+        scheme: Scheme::Newmark,
+        dt: 0.02,
+        end_time: 4.0,
+        point_mode,
+        transfer,
+        points_per_cell: 4,
+        material: Elastic {
+            youngs_modulus: 10.0,
+            poissons_ratio: 0.3,
+            density: 2.0,
+        },
+        sides: [[free(), free()], [free(), free()]],
+        drives: Vec::new(),
+        probes: Probes {
+            energy_every: Some(1),
+            ..Probes::default()
+        },
+        solver: SolverKind::Auto,
+        rel_tol: 1e-13,
+    }
+}
+
+/// A column of compression-1d's material, one cell wide per metre of `width`, pushed from its top by
+/// a sin^2 pulse of 0.5 s and 1 mm/s; base as given.
+pub fn column(h: f64, base: SideMethod) -> Problem<2> {
+    Problem {
+        target: Aabb {
+            lower: [0.0, 0.0],
+            upper: [4.0 * h, 50.0],
+        },
+        cell_size: h,
+        dt: 0.005 * h,
+        end_time: 3.0,
+        material: Elastic {
+            youngs_modulus: 150e3,
+            poissons_ratio: 0.49,
+            density: 650.0,
+        },
+        sides: [
+            [SideMethod::new("roller"), SideMethod::new("roller")],
+            [base, SideMethod::new("free")],
+        ],
+        drives: vec![Drive::SideVelocity {
+            side: Side::TOP,
+            pulse: Pulse {
+                wavelet: Wavelet::SineSquared,
+                amplitude: -1e-3,
+                frequency: 1.0,
+                t0: 0.0,
+            },
+        }],
+        probes: Probes {
+            receivers: vec![Receiver {
+                name: "A".into(),
+                place: [2.0 * h, 50.0],
+            }],
+            energy_every: Some(1),
+            ..Probes::default()
+        },
+        rel_tol: 1e-10,
+        ..block(Transfer::Keep, PointMode::Frozen)
+    }
+}

@@ -125,8 +125,14 @@ pub fn vertical_slowness(p: Complex64, q: f64) -> Complex64 {
 /// slownesses of P and S (s/m); its real zeros are the slownesses of the Rayleigh wave.
 pub fn rayleigh_function(p: Complex64, a: f64, b: f64) -> Complex64 {
     let square = p * p;
-    let chi = b * b - 2.0 * square;
-    chi * chi + 4.0 * square * vertical_slowness(p, a) * vertical_slowness(p, b)
+    let product = vertical_slowness(p, a) * vertical_slowness(p, b);
+    if square.norm() < 4.0 * b * b {
+        let chi = b * b - 2.0 * square;
+        return chi * chi + 4.0 * square * product;
+    }
+    // Far out 4 p^4 cancels; p^2 + product, rationalised, does not.
+    let sum = (a * a * b * b - (a * a + b * b) * square) / (product - square);
+    b.powi(4) + 4.0 * square * (sum - b * b)
 }
 
 #[cfg(test)]
@@ -155,6 +161,19 @@ mod tests {
             assert!((eta * eta - (1.0 - p * p)).norm() < 1e-12 * (1.0 + p.norm_sqr()));
             assert!(eta.re >= 0.0);
         }
+    }
+
+    #[test]
+    fn rayleigh_function_is_continuous_and_grows_like_p_squared() {
+        let (a, b) = (0.6, 1.0);
+        for p in [Complex64::new(1.2, 1.6), Complex64::new(0.0, 2.0)] {
+            let inside = rayleigh_function(p * (1.0 - 1e-15), a, b);
+            let outside = rayleigh_function(p * (1.0 + 1e-15), a, b);
+            assert!((inside / outside - 1.0).norm() < 1e-13);
+        }
+        let far = Complex64::new(3e6, 1e6);
+        let leading = -2.0 * (b * b - a * a) * far * far;
+        assert!((rayleigh_function(far, a, b) / leading - 1.0).norm() < 1e-11);
     }
 
     #[test]

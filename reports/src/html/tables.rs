@@ -89,7 +89,7 @@ pub(super) fn ranking(ranking: &Ranking) -> Markup {
                     @for method in &ranking.methods {
                         tr {
                             @for (i, cell) in ranking_cells(ranking, method).iter().enumerate() {
-                                td.number[i != 1] { (cell) }
+                                td.number[i != 1].name[i == 1] { (cell) }
                             }
                         }
                     }
@@ -151,7 +151,7 @@ pub(super) fn cost(runs: &[RunSummary]) -> Markup {
                 tbody {
                     @for run in runs {
                         tr {
-                            td { (run.method) }
+                            td.name { (run.method) }
                             td { (status_badge(&run.status)) }
                             td.number { (format::count(run.cost.steps)) }
                             td.number { (format::count(run.cost.points)) }
@@ -186,13 +186,13 @@ pub(super) fn provenance(runs: &[RunSummary]) -> Markup {
                 tbody {
                     @for run in runs {
                         tr {
-                            td { (run.method) }
+                            td.name { (run.method) }
                             td { (run.provenance.version) }
                             td.hash {
                                 (run.provenance.revision)
                                 @if run.provenance.dirty { " " span.badge.open { "dirty" } }
                             }
-                            td { (run.provenance.compiler) }
+                            td.name { (run.provenance.compiler) }
                             td.number { (run.provenance.threads) }
                             td.hash { (run.provenance.input_hash) }
                         }
@@ -213,7 +213,7 @@ pub(super) fn measurements(rows: &[&Row]) -> Markup {
                 tbody {
                     @for row in rows {
                         tr {
-                            td { (row.method) }
+                            td.name { (row.method) }
                             td { code { (row.metric) } }
                             td { (row.place) }
                             @match row.value {

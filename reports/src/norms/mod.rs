@@ -5,7 +5,7 @@
 //! | [`traces`] | what is compared: vector series at receivers |
 //! | [`echo`] | `amplitude_ratio`, `echo_ratio`, `echo_level_db`, `residual`, `peak_error`, `rel_l2` |
 //! | [`group`] | means over groups of receivers with the worst beside them |
-//! | [`peak`] | peaks and `rd` |
+//! | [`mod@peak`] | peaks and `rd` |
 //! | [`arrival`] | arrival differences by cross-correlation |
 //! | [`energy`] | `energy_left`, `growth_rate_per_s` |
 //! | [`field`] | `l1`, `l2`, `linf` of fields |

@@ -3,9 +3,9 @@
 use super::drawing::{Align, Drawing, Mark, Stroke};
 use super::palette;
 
-pub(super) const TICK_TEXT: f64 = 12.0;
-pub(super) const LABEL_TEXT: f64 = 13.0;
-pub(super) const TITLE_TEXT: f64 = 14.0;
+pub(super) const TICK_TEXT: f64 = 13.0;
+pub(super) const LABEL_TEXT: f64 = 14.0;
+pub(super) const TITLE_TEXT: f64 = 15.0;
 
 /// A range of values along one direction of a panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -233,7 +233,7 @@ impl Panel {
             let (x, _) = self.at(*tick, 0.0);
             drawing.line((x, self.bottom()), (x, self.bottom() + 3.5), stroke);
             if x_labels {
-                let at = (x, self.bottom() + 11.0);
+                let at = (x, self.bottom() + 12.0);
                 drawing.text(&self.x.tick_label(*tick), at, TICK_TEXT, Align::Middle);
             }
         }
@@ -249,13 +249,13 @@ impl Panel {
 
     /// The title above the panel, at its left.
     pub fn headline(&self, drawing: &mut Drawing, text: &str) {
-        let at = (self.left, self.top - 10.0);
+        let at = (self.left, self.top - 11.0);
         drawing.text(text, at, TITLE_TEXT, Align::Start);
     }
 
     /// The name of the horizontal axis below its labels.
     pub fn x_title(&self, drawing: &mut Drawing, text: &str) {
-        let at = (self.left + 0.5 * self.width, self.bottom() + 28.0);
+        let at = (self.left + 0.5 * self.width, self.bottom() + 30.0);
         drawing.text(text, at, LABEL_TEXT, Align::Middle);
     }
 

@@ -1,7 +1,8 @@
 //! Bars: the echo of each method on a log axis, with its cost beside it.
 
 use super::axis::{Axis, LABEL_TEXT, Panel, TICK_TEXT};
-use super::drawing::{Align, Drawing, Mark, Stroke, text_width};
+use super::drawing::{Align, Drawing, Mark, Stroke};
+use super::writer::text_width;
 use super::{PlotError, check, empty, palette};
 use crate::format;
 
@@ -9,7 +10,7 @@ const PICTURE: &str = "bars";
 const WIDTH: f64 = 900.0;
 const ROW: f64 = 26.0;
 const TOP: f64 = 42.0;
-const FOOT: f64 = 44.0;
+const FOOT: f64 = 46.0;
 const GAP: f64 = 26.0;
 
 /// One column of bars: a number for each method.
@@ -198,7 +199,7 @@ fn cost_axis(cost: &Bars, width: f64) -> Axis {
         .flatten()
         .fold(0.0, |m, v| f64::max(m, *v));
     let max = if max > 0.0 { 1.35 * max } else { 1.0 };
-    Axis::linear(0.0, max, (width / 60.0) as usize)
+    Axis::linear(0.0, max, (width / 48.0) as usize)
 }
 
 fn draw_floor(drawing: &mut Drawing, panel: &Panel, floor: f64) {
@@ -206,7 +207,7 @@ fn draw_floor(drawing: &mut Drawing, panel: &Panel, floor: f64) {
     let stroke = Stroke::dashed(palette::INK, 1.2);
     drawing.line((x, panel.top), (x, panel.bottom()), stroke);
     let at = (x, panel.top - 8.0);
-    drawing.text_in("floor", at, 10.0, Align::Middle, palette::SOFT);
+    drawing.text_in("floor", at, 11.0, Align::Middle, palette::SOFT);
 }
 
 /// The base line of the bars and the horizontal ticks.
@@ -218,7 +219,7 @@ fn frame(drawing: &mut Drawing, panel: &Panel) {
     for tick in panel.x.ticks() {
         let x = panel.at(*tick, 0.0).0;
         drawing.line((x, foot), (x, foot + 3.5), stroke);
-        let at = (x, foot + 11.0);
+        let at = (x, foot + 12.0);
         drawing.text(&panel.x.tick_label(*tick), at, TICK_TEXT, Align::Middle);
     }
 }

@@ -10,6 +10,9 @@ const WIDTH: u32 = 900;
 const HEIGHT: u32 = 440;
 const LEGEND: f64 = 250.0;
 
+/// Smallest and largest value.
+type Range = (f64, f64);
+
 /// One method or scene on several levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvergenceSeries {
@@ -40,10 +43,10 @@ impl ConvergencePlot {
         let (h, errors) = self.ranges()?;
         let mut drawing = Drawing::new(WIDTH, HEIGHT);
         let panel = Panel {
-            left: 72.0,
+            left: 76.0,
             top: 16.0,
-            width: f64::from(WIDTH) - 72.0 - LEGEND,
-            height: f64::from(HEIGHT) - 16.0 - 46.0,
+            width: f64::from(WIDTH) - 76.0 - LEGEND,
+            height: f64::from(HEIGHT) - 16.0 - 48.0,
             x: Axis::log_at(h.0 / 1.5, h.1 * 1.5, self.levels()),
             y: Axis::log_range(errors.0 / 2.5, errors.1 * 1.8, 8),
         };
@@ -54,7 +57,7 @@ impl ConvergencePlot {
         }
         panel.frame(&mut drawing, true, true);
         panel.x_title(&mut drawing, "cell size h (m)");
-        panel.y_title(&mut drawing, &self.quantity, 54.0);
+        panel.y_title(&mut drawing, &self.quantity, 58.0);
         Ok(drawing)
     }
 
@@ -67,7 +70,7 @@ impl ConvergencePlot {
     }
 
     /// Smallest and largest h and error, after a check of the data.
-    fn ranges(&self) -> Result<((f64, f64), (f64, f64)), PlotError> {
+    fn ranges(&self) -> Result<(Range, Range), PlotError> {
         let mut h = (f64::INFINITY, 0.0);
         let mut errors = (f64::INFINITY, 0.0);
         for series in &self.series {
@@ -95,13 +98,7 @@ impl ConvergencePlot {
 
     /// A right-angled triangle with the stated slope, low at the right where curves that fall
     /// towards small h leave room.
-    fn draw_triangle(
-        &self,
-        drawing: &mut Drawing,
-        panel: &Panel,
-        h: (f64, f64),
-        errors: (f64, f64),
-    ) {
+    fn draw_triangle(&self, drawing: &mut Drawing, panel: &Panel, h: Range, errors: Range) {
         let reach = (h.1 / h.0).sqrt().min(2.0);
         let (right, low) = (h.1, errors.0);
         let left = right / reach;

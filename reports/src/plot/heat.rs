@@ -149,7 +149,7 @@ pub(super) fn colour_bar(
         let at = (panel.right() + 6.0, y);
         drawing.text(&panel.y.tick_label(*tick), at, TICK_TEXT, Align::Start);
     }
-    let at = (panel.right() + 50.0, top + 0.5 * height);
+    let at = (panel.right() + 56.0, top + 0.5 * height);
     drawing.text_upward(&panel.y.title(name, unit), at, LABEL_TEXT);
 }
 

@@ -11,7 +11,7 @@
 //! | [`convergence`] | error against cell size, log-log |
 //!
 //! Each has a `draw` that gives a [`Drawing`]: a list of marks, written by [`Drawing::to_svg`] and
-//! [`Drawing::to_png`]. Shared parts: [`drawing`] (marks and writers), `axis`, `panels` (line
+//! [`Drawing::to_png`]. Shared parts: [`drawing`] (marks), `writer` (files), `axis`, `panels` (line
 //! panels), `heat` (coloured fields), [`palette`].
 
 pub mod bars;
@@ -27,6 +27,7 @@ pub mod traces;
 mod axis;
 mod heat;
 mod panels;
+mod writer;
 
 pub use bars::{BarPlot, Bars};
 pub use convergence::{ConvergencePlot, ConvergenceSeries};

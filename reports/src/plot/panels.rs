@@ -1,15 +1,16 @@
 //! Panels of lines with a shared legend: the body of all pictures over time.
 
 use super::axis::{Axis, LABEL_TEXT, Panel};
-use super::drawing::{Align, Drawing, Mark, Stroke, text_width};
+use super::drawing::{Align, Drawing, Mark, Stroke};
+use super::writer::text_width;
 use super::{PlotError, check, empty, palette};
 
 const WIDTH: u32 = 900;
-const LEFT: f64 = 66.0;
-const RIGHT: f64 = 14.0;
-const GAP_X: f64 = 64.0;
-const GAP_Y: f64 = 46.0;
-const FOOT: f64 = 28.0;
+const LEFT: f64 = 68.0;
+const RIGHT: f64 = 16.0;
+const GAP_X: f64 = 68.0;
+const GAP_Y: f64 = 48.0;
+const FOOT: f64 = 30.0;
 
 /// One named line, usually a method.
 #[derive(Clone, Debug, PartialEq)]
@@ -161,7 +162,7 @@ impl Panels<'_> {
             let stroke = Stroke::dashed(palette::SOFT, 1.0);
             drawing.line((panel.left, y), (panel.right(), y), stroke);
             let at = (panel.right() - 5.0, y - 7.0);
-            drawing.text_in("floor", at, 10.0, Align::End, palette::SOFT);
+            drawing.text_in("floor", at, 11.0, Align::End, palette::SOFT);
         }
         panel.frame(drawing, true, true);
         panel.headline(drawing, &content.title);
@@ -169,7 +170,7 @@ impl Panels<'_> {
             panel.x_title(drawing, &panel.x.title(self.x_name.0, self.x_name.1));
         }
         let name = panel.y.title(self.y_name.0, self.y_name.1);
-        panel.y_title(drawing, &name, 50.0);
+        panel.y_title(drawing, &name, 53.0);
     }
 
     fn legend(&self) -> Result<Vec<Entry>, PlotError> {

@@ -8,11 +8,14 @@ use anechoic_solver::record::Snapshot;
 
 const PICTURE: &str = "snapshots";
 const WIDTH: f64 = 900.0;
-const LEFT: f64 = 92.0;
+const LEFT: f64 = 98.0;
 const BAR: f64 = 92.0;
-const GAP: f64 = 20.0;
+const GAP: f64 = 24.0;
 const TOP: f64 = 26.0;
 const FOOT: f64 = 40.0;
+
+/// Smallest and largest value.
+type Range = (f64, f64);
 
 /// Magnitude of a vector field on a lattice of the x-y plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,7 +143,7 @@ impl SnapshotPlot {
         self.rows.iter().flat_map(|(_, fields)| fields)
     }
 
-    fn extent(&self) -> ((f64, f64), (f64, f64)) {
+    fn extent(&self) -> (Range, Range) {
         let range = |pick: fn(&Field) -> &Vec<f64>| {
             self.fields()
                 .flat_map(pick)
@@ -183,9 +186,9 @@ impl SnapshotPlot {
             panel.x_title(drawing, "x (m)");
         }
         if column == 0 {
-            panel.y_title(drawing, "y (m)", 50.0);
+            panel.y_title(drawing, "y (m)", 56.0);
             let text = format!("t = {} s", crate::format::short(time));
-            panel.y_title(drawing, &text, 78.0);
+            panel.y_title(drawing, &text, 84.0);
         }
     }
 }

@@ -1,21 +1,22 @@
 //! A field over place and time: waves and their echoes as slanted bands, methods side by side.
 
 use super::axis::{Axis, Panel};
-use super::drawing::{Align, Drawing, Mark, Stroke, text_width};
+use super::drawing::{Align, Drawing, Mark, Stroke};
 use super::heat::{Colours, Raster, colour_bar};
+use super::writer::text_width;
 use super::{PlotError, check, empty, palette};
 use anechoic_solver::record::SpaceTime;
 
 const PICTURE: &str = "space-time";
 const WIDTH: f64 = 900.0;
-const LEFT: f64 = 60.0;
+const LEFT: f64 = 62.0;
 const BAR: f64 = 92.0;
-const GAP: f64 = 16.0;
+const GAP: f64 = 24.0;
 const HEIGHT: f64 = 230.0;
-const ROW: f64 = HEIGHT + 44.0;
+const ROW: f64 = HEIGHT + 50.0;
 const FOOT: f64 = 34.0;
-const GUIDE_TEXT: f64 = 10.0;
-/// Panels in a row.
+const GUIDE_TEXT: f64 = 11.0;
+/// Most panels in a row; four stand two by two.
 const ACROSS: usize = 3;
 
 /// A horizontal line over the field: a receiver, the edge of a layer.
@@ -44,8 +45,11 @@ impl SpaceTimePlot {
     /// Draws it.
     pub fn draw(&self) -> Result<Drawing, PlotError> {
         let first = self.check()?;
-        let across = self.fields.len().min(ACROSS);
-        let rows = self.fields.len().div_ceil(ACROSS);
+        let across = match self.fields.len() {
+            4 => 2,
+            n => n.min(ACROSS),
+        };
+        let rows = self.fields.len().div_ceil(across);
         let width = (WIDTH - LEFT - BAR - GAP * (across - 1) as f64 - 14.0) / across as f64;
         let mut drawing = Drawing::new(WIDTH as u32, (rows as f64 * ROW + FOOT) as u32);
         let colours = Colours::diverging(self.limit());
@@ -56,7 +60,7 @@ impl SpaceTimePlot {
                 top: 28.0 + row as f64 * ROW,
                 width,
                 height: HEIGHT,
-                x: range(self.fields.iter().flat_map(|(_, f)| &f.times), width / 44.0),
+                x: range(self.fields.iter().flat_map(|(_, f)| &f.times), width / 50.0),
                 y: range(self.fields.iter().flat_map(|(_, f)| &f.positions), 6.0),
             };
             draw_field(&mut drawing, &panel, field, &colours);

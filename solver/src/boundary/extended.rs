@@ -1,6 +1,12 @@
-//! Extended domain.
+//! Extended domain: plain material, so much of it that no wave comes back during the run.
+//!
+//! Not an absorber but the honest competitor, and what certifies itself: the fastest wave from any
+//! place of the body to the outer end and back needs at least `2 thickness / c_p`.
 
-use super::params::{MethodInfo, Param, ParamKind};
+use super::params::{MethodInfo, Param, ParamKind, SideMethod};
+use super::{Context, End, Layout, Parts, walls};
+use crate::error::SolverError;
+use crate::problem::{Problem, Side};
 
 /// The method's entry.
 pub static METHOD: MethodInfo = MethodInfo {
@@ -12,3 +18,22 @@ pub static METHOD: MethodInfo = MethodInfo {
         kind: ParamKind::Number { unit: "m", default: None, min: 1e-9, max: 1e9 },
     }],
 };
+
+/// Implicit schemes spread a little of everything a few cells ahead of the wave.
+const CELLS_AHEAD: f64 = 10.0;
+
+pub(crate) fn layout<const D: usize>(
+    problem: &Problem<D>,
+    _side: Side,
+    method: &SideMethod,
+) -> Result<Layout, SolverError> {
+    let outside = method.given_number("thickness_m").unwrap_or_else(|| {
+        let needed = 0.5 * problem.material.p_speed() * problem.end_time;
+        needed + CELLS_AHEAD * problem.cell_size
+    });
+    Ok(Layout { outside, inside: 0.0, end: End::Fixed })
+}
+
+pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
+    Ok(Parts { terms: walls(context) })
+}

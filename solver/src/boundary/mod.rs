@@ -1,12 +1,98 @@
 //! Boundary methods: one file a method, one line here.
 //!
-//! A method's file exports a [`MethodInfo`]: its name, its parameters with units and ranges, and how
-//! it is built. The table [`METHODS`] is made from the list of modules below, so a new method is its
-//! file and one line.
+//! A method's file exports its entry `METHOD` (name, parameters with units and ranges), a function
+//! `layout` that says how much material it adds to a side and what holds the outer end, and a
+//! function `build` that makes its terms for all sides that use it. The line in the list below makes
+//! the `mod`, the table [`METHODS`] and the dispatch.
 
 pub mod params;
+mod surface;
+mod wall;
 
 pub use params::{MethodInfo, Param, ParamKind, SideMethod, Value};
+
+use crate::error::SolverError;
+use crate::grid::Grid;
+use crate::physics::kernel::NodeTerm;
+use crate::problem::{Aabb, Elastic, Problem, Side};
+
+/// What holds the outer end of a side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// Nothing.
+    Free,
+    /// The normal displacement is held.
+    Roller,
+    /// All displacements are held.
+    Fixed,
+}
+
+/// What a method makes of a side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layout {
+    /// Material added outside the body (m).
+    pub outside: f64,
+    /// Part of the body that the method takes for itself, from the side inwards (m).
+    pub inside: f64,
+    /// What holds the outer end.
+    pub end: End,
+}
+
+impl Layout {
+    /// Nothing added, the body's own side held by `end`.
+    pub fn plain(end: End) -> Self {
+        Layout {
+            outside: 0.0,
+            inside: 0.0,
+            end,
+        }
+    }
+}
+
+/// A side with its method's parameters and layout.
+#[derive(Clone, Debug)]
+pub struct Assigned {
+    /// Which side.
+    pub side: Side,
+    /// The method with its parameters.
+    pub method: SideMethod,
+    /// What the method made of the side.
+    pub layout: Layout,
+}
+
+/// What a method may know when it builds its terms.
+#[derive(Debug)]
+pub struct Context<'a, const D: usize> {
+    /// Background grid.
+    pub grid: &'a Grid<D>,
+    /// The body.
+    pub target: Aabb<D>,
+    /// All material, layers included.
+    pub material_box: Aabb<D>,
+    /// Its material.
+    pub material: Elastic,
+    /// Do points move?
+    pub moving: bool,
+    /// The sides that use the method.
+    pub sides: Vec<Assigned>,
+}
+
+impl<const D: usize> Context<'_, D> {
+    /// Coordinate of the body's side (m).
+    pub fn plane(&self, side: Side) -> f64 {
+        if side.upper {
+            self.target.upper[side.axis]
+        } else {
+            self.target.lower[side.axis]
+        }
+    }
+}
+
+/// What a method contributes.
+pub struct Parts<const D: usize> {
+    /// Terms on nodes.
+    pub terms: Vec<Box<dyn NodeTerm<D>>>,
+}
 
 macro_rules! methods {
     ($($module:ident),* $(,)?) => {
@@ -14,6 +100,29 @@ macro_rules! methods {
 
         /// All boundary methods, in the order in which they are listed.
         pub static METHODS: &[&MethodInfo] = &[$(&$module::METHOD),*];
+
+        /// What the side's method makes of it.
+        pub(crate) fn layout<const D: usize>(
+            problem: &Problem<D>,
+            side: Side,
+            method: &SideMethod,
+        ) -> Result<Layout, SolverError> {
+            $(if method.method == $module::METHOD.name {
+                return $module::layout(problem, side, method);
+            })*
+            Err(unknown(side, method))
+        }
+
+        /// Builds the terms of the method called `name`.
+        pub(crate) fn build<const D: usize>(
+            name: &str,
+            context: &Context<'_, D>,
+        ) -> Result<Parts<D>, SolverError> {
+            $(if name == $module::METHOD.name {
+                return $module::build(context);
+            })*
+            Ok(Parts { terms: Vec::new() })
+        }
     };
 }
 
@@ -29,4 +138,23 @@ methods! {
 /// The method called `name`.
 pub fn find(name: &str) -> Option<&'static MethodInfo> {
     METHODS.iter().copied().find(|m| m.name == name)
+}
+
+fn unknown(side: Side, method: &SideMethod) -> SolverError {
+    let names: Vec<&str> = METHODS.iter().map(|m| m.name).collect();
+    SolverError::Setup {
+        field: format!("boundary.{}.method", side.name()),
+        reason: format!(
+            "no method is called {:?}; known are {}",
+            method.method,
+            names.join(", ")
+        ),
+    }
+}
+
+/// Terms that hold the outer ends of the sides in `context`.
+pub(crate) fn walls<const D: usize>(context: &Context<'_, D>) -> Vec<Box<dyn NodeTerm<D>>> {
+    let held = context.sides.iter().filter(|s| s.layout.end != End::Free);
+    held.map(|s| Box::new(wall::Wall::new(context, s.side, s.layout.end)) as Box<dyn NodeTerm<D>>)
+        .collect()
 }

@@ -73,6 +73,40 @@ impl SideMethod {
             .insert(key.to_owned(), Value::Text(value.to_owned()));
         self
     }
+
+    /// The number given for `key`, if any.
+    pub fn given_number(&self, key: &str) -> Option<f64> {
+        match self.params.get(key) {
+            Some(Value::Number(x)) => Some(*x),
+            _ => None,
+        }
+    }
+
+    /// The number for `key`, or the default that `info` gives it.
+    ///
+    /// # Panics
+    /// When `info` has no such number with a default: a bug of the method's file.
+    pub(crate) fn number(&self, info: &MethodInfo, key: &str) -> f64 {
+        self.given_number(key)
+            .unwrap_or_else(|| match info.param(key).map(|p| p.kind) {
+                Some(ParamKind::Number {
+                    default: Some(x), ..
+                }) => x,
+                _ => unreachable!("{}.{key} has no default", info.name),
+            })
+    }
+
+    /// The choice for `key`, or the first that `info` offers.
+    ///
+    /// # Panics
+    /// When `info` has no such choice: a bug of the method's file.
+    pub(crate) fn choice<'a>(&'a self, info: &MethodInfo, key: &str) -> &'a str {
+        match (self.params.get(key), info.param(key).map(|p| p.kind)) {
+            (Some(Value::Text(x)), _) => x,
+            (_, Some(ParamKind::Choice(words))) => words[0],
+            _ => unreachable!("{}.{key} is not a choice", info.name),
+        }
+    }
 }
 
 /// A boundary method as its file exports it.
@@ -84,4 +118,11 @@ pub struct MethodInfo {
     pub summary: &'static str,
     /// Its parameters.
     pub params: &'static [Param],
+}
+
+impl MethodInfo {
+    /// The parameter called `key`.
+    pub fn param(&self, key: &str) -> Option<&'static Param> {
+        self.params.iter().find(|p| p.name == key)
+    }
 }

@@ -1,0 +1,247 @@
+//! Plain solid.
+//!
+//! Two kernels: [`Kept`] for frozen points whose nodes keep the displacement (the force is K u), and
+//! [`Carried`] for points that carry their stress, in small strain when frozen and in finite strain
+//! when they move.
+
+use super::kernel::{Lumped, RegionKernel, Trial};
+use crate::basis::Discretisation;
+use crate::error::SolverError;
+use crate::linear::block_matrix::BlockMatrix;
+use crate::material::MaterialBlock;
+use crate::points::{BLOCK, Points, blocks};
+use crate::tensor::{Matrix, Tensor4, Vector, zero};
+use std::ops::Range;
+
+/// Adds the masses of a range of points, alike in all directions.
+fn lump_mass<const D: usize>(
+    range: Range<usize>,
+    disc: &dyn Discretisation<D>,
+    points: &Points<D>,
+    out: &mut Lumped<D>,
+) {
+    let unit = [[1.0; D]; BLOCK];
+    for block in blocks(range) {
+        disc.scatter_vector(
+            block.clone(),
+            &points.mass[block.clone()],
+            &unit[..block.len()],
+            &mut out.mass,
+        );
+    }
+}
+
+/// Frozen points, displacement kept on nodes.
+pub struct Kept<const D: usize> {
+    range: Range<usize>,
+    material: Box<dyn MaterialBlock<D>>,
+}
+
+impl<const D: usize> Kept<D> {
+    /// The points of `range` with their material.
+    pub fn new(range: Range<usize>, material: Box<dyn MaterialBlock<D>>) -> Self {
+        Kept { range, material }
+    }
+
+    /// Stress of a block at the displacement `u`.
+    fn stress(
+        &self,
+        disc: &dyn Discretisation<D>,
+        block: Range<usize>,
+        u: &[Vector<D>],
+        out: &mut [Matrix<D>],
+    ) {
+        let mut gradient = [zero::<D>(); BLOCK];
+        let gradient = &mut gradient[..block.len()];
+        disc.gradient(block, u, gradient);
+        out.fill(zero());
+        self.material.small_stress(gradient, out);
+    }
+}
+
+impl<const D: usize> RegionKernel<D> for Kept<D> {
+    fn lump(&self, disc: &dyn Discretisation<D>, points: &Points<D>, out: &mut Lumped<D>) {
+        lump_mass(self.range.clone(), disc, points, out);
+    }
+
+    fn force(&mut self, trial: &Trial<'_, D>, out: &mut [Vector<D>]) -> Result<(), SolverError> {
+        let mut stress = [zero::<D>(); BLOCK];
+        for displacement in [trial.start, trial.increment] {
+            for block in blocks(self.range.clone()) {
+                let stress = &mut stress[..block.len()];
+                self.stress(trial.disc, block.clone(), displacement, stress);
+                trial
+                    .disc
+                    .scatter_stress(block.clone(), &trial.points.volume[block], stress, out);
+            }
+        }
+        Ok(())
+    }
+
+    fn tangent(&mut self, trial: &Trial<'_, D>, out: &mut BlockMatrix<D>) {
+        let moduli = [self.material.small_moduli(); BLOCK];
+        for block in blocks(self.range.clone()) {
+            let volumes = &trial.points.volume[block.clone()];
+            trial
+                .disc
+                .scatter_tangent(block.clone(), volumes, &moduli[..block.len()], out);
+        }
+    }
+
+    fn commit(&mut self, _trial: &Trial<'_, D>) -> Result<(), SolverError> {
+        Ok(())
+    }
+
+    fn is_linear_in_displacement(&self) -> bool {
+        true
+    }
+
+    fn strain_energy(
+        &self,
+        disc: &dyn Discretisation<D>,
+        points: &Points<D>,
+        u: &[Vector<D>],
+    ) -> f64 {
+        let mut stress = [zero::<D>(); BLOCK];
+        let mut energy = 0.0;
+        for block in blocks(self.range.clone()) {
+            let stress = &mut stress[..block.len()];
+            self.stress(disc, block.clone(), u, stress);
+            for (s, v) in stress.iter().zip(&points.volume[block]) {
+                energy += v * self.material.energy_density(s);
+            }
+        }
+        energy
+    }
+
+    fn bytes_per_point(&self) -> usize {
+        0
+    }
+}
+
+/// Points that carry their stress.
+pub struct Carried<const D: usize> {
+    range: Range<usize>,
+    material: Box<dyn MaterialBlock<D>>,
+    finite: bool,
+    /// Cauchy (small strain) or Kirchhoff stress (Pa).
+    stress: Vec<Matrix<D>>,
+}
+
+impl<const D: usize> Carried<D> {
+    /// The points of `range`, free of stress; `finite` strain when they move.
+    pub fn new(range: Range<usize>, material: Box<dyn MaterialBlock<D>>, finite: bool) -> Self {
+        let stress = vec![zero(); range.len()];
+        Carried {
+            range,
+            material,
+            finite,
+            stress,
+        }
+    }
+
+    /// Places of the block's stresses in the region's own column.
+    fn own(&self, block: &Range<usize>) -> Range<usize> {
+        block.start - self.range.start..block.end - self.range.start
+    }
+
+    /// Stress `next` and first Piola-Kirchhoff stress `first` of a block at the end of the trial.
+    fn trial_stress(
+        &self,
+        trial: &Trial<'_, D>,
+        block: &Range<usize>,
+        next: &mut [Matrix<D>],
+        first: &mut [Matrix<D>],
+    ) -> Result<(), SolverError> {
+        let mut gradient = [zero::<D>(); BLOCK];
+        let gradient = &mut gradient[..block.len()];
+        trial
+            .disc
+            .gradient(block.clone(), trial.increment, gradient);
+        let start = &self.stress[self.own(block)];
+        if !self.finite {
+            next.copy_from_slice(start);
+            self.material.small_stress(gradient, next);
+            first.copy_from_slice(next);
+            return Ok(());
+        }
+        self.material
+            .finite_stress(gradient, start, next, first)
+            .map_err(|(p, determinant)| SolverError::InvertedPoint {
+                step: trial.moment.step,
+                time_s: trial.moment.time_s,
+                place: trial.points.place[block.start + p].to_vec(),
+                determinant,
+            })
+    }
+}
+
+impl<const D: usize> RegionKernel<D> for Carried<D> {
+    fn lump(&self, disc: &dyn Discretisation<D>, points: &Points<D>, out: &mut Lumped<D>) {
+        lump_mass(self.range.clone(), disc, points, out);
+    }
+
+    fn force(&mut self, trial: &Trial<'_, D>, out: &mut [Vector<D>]) -> Result<(), SolverError> {
+        let (mut next, mut first) = ([zero::<D>(); BLOCK], [zero::<D>(); BLOCK]);
+        for block in blocks(self.range.clone()) {
+            let n = block.len();
+            self.trial_stress(trial, &block, &mut next[..n], &mut first[..n])?;
+            let volumes = &trial.points.volume[block.clone()];
+            trial.disc.scatter_stress(block, volumes, &first[..n], out);
+        }
+        Ok(())
+    }
+
+    fn tangent(&mut self, trial: &Trial<'_, D>, out: &mut BlockMatrix<D>) {
+        let mut gradient = [zero::<D>(); BLOCK];
+        let mut moduli: [Tensor4<D>; BLOCK] = [self.material.small_moduli(); BLOCK];
+        for block in blocks(self.range.clone()) {
+            let n = block.len();
+            if self.finite {
+                trial
+                    .disc
+                    .gradient(block.clone(), trial.increment, &mut gradient[..n]);
+                let start = &self.stress[self.own(&block)];
+                self.material
+                    .finite_moduli(&gradient[..n], start, &mut moduli[..n]);
+            }
+            let volumes = &trial.points.volume[block.clone()];
+            trial
+                .disc
+                .scatter_tangent(block, volumes, &moduli[..n], out);
+        }
+    }
+
+    fn commit(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError> {
+        let (mut next, mut first) = ([zero::<D>(); BLOCK], [zero::<D>(); BLOCK]);
+        for block in blocks(self.range.clone()) {
+            let n = block.len();
+            self.trial_stress(trial, &block, &mut next[..n], &mut first[..n])?;
+            let own = self.own(&block);
+            self.stress[own].copy_from_slice(&next[..n]);
+        }
+        Ok(())
+    }
+
+    fn is_linear_in_displacement(&self) -> bool {
+        false
+    }
+
+    fn strain_energy(
+        &self,
+        _disc: &dyn Discretisation<D>,
+        points: &Points<D>,
+        _u: &[Vector<D>],
+    ) -> f64 {
+        let volumes = &points.volume[self.range.clone()];
+        self.stress
+            .iter()
+            .zip(volumes)
+            .map(|(s, v)| v * self.material.energy_density(s))
+            .sum()
+    }
+
+    fn bytes_per_point(&self) -> usize {
+        size_of::<Matrix<D>>()
+    }
+}

@@ -1,0 +1,169 @@
+//! What regions of points and terms on nodes contribute to the system
+//!
+//! ```text
+//! M a + C v + K u + f_int(u) = f_ext
+//! ```
+
+use crate::basis::Discretisation;
+use crate::error::SolverError;
+use crate::grid::Grid;
+use crate::linear::Moment;
+use crate::linear::block_matrix::BlockMatrix;
+use crate::points::Points;
+use crate::tensor::Vector;
+
+/// Lumped coefficients of the nodes, one an unknown.
+#[derive(Clone, Debug, Default)]
+pub struct Lumped<const D: usize> {
+    /// Inertia M (kg).
+    pub mass: Vec<Vector<D>>,
+    /// Damping C (kg/s); empty when nothing is damped.
+    pub viscous: Vec<Vector<D>>,
+}
+
+/// A trial state of the end of a step.
+#[derive(Clone, Copy)]
+pub struct Trial<'a, const D: usize> {
+    /// Shape functions.
+    pub disc: &'a dyn Discretisation<D>,
+    /// Points at the start of the step.
+    pub points: &'a Points<D>,
+    /// Nodal displacement at the start of the step, where nodes keep it (m).
+    pub start: &'a [Vector<D>],
+    /// Its increment (m).
+    pub increment: &'a [Vector<D>],
+    /// Length of the step (s).
+    pub dt: f64,
+    /// When it ends.
+    pub moment: Moment,
+}
+
+/// A region of points: its internal force, tangent and memory.
+pub trait RegionKernel<const D: usize>: Send {
+    /// Adds masses and other lumped coefficients of the region's points.
+    fn lump(&self, disc: &dyn Discretisation<D>, points: &Points<D>, out: &mut Lumped<D>);
+
+    /// Adds the internal force of the trial state.
+    ///
+    /// # Errors
+    /// An inverted point.
+    fn force(&mut self, trial: &Trial<'_, D>, out: &mut [Vector<D>]) -> Result<(), SolverError>;
+
+    /// Adds the derivative of the internal force with respect to the increment.
+    fn tangent(&mut self, trial: &Trial<'_, D>, out: &mut BlockMatrix<D>);
+
+    /// Accepts the trial state: stress and memory move on.
+    ///
+    /// # Errors
+    /// An inverted point.
+    fn commit(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError>;
+
+    /// Is the force the tangent times the total displacement? The model then applies the assembled
+    /// matrix instead of visiting the points.
+    fn is_linear_in_displacement(&self) -> bool;
+
+    /// Elastic energy of the region (J, per metre of thickness in 2D) with the nodal displacement
+    /// `u` where nodes keep it.
+    fn strain_energy(
+        &self,
+        disc: &dyn Discretisation<D>,
+        points: &Points<D>,
+        u: &[Vector<D>],
+    ) -> f64;
+
+    /// State of one point in bytes.
+    fn bytes_per_point(&self) -> usize;
+}
+
+/// How an unknown is held during a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Driven {
+    /// Velocity at the start and end of the step (m/s).
+    pub velocity: [f64; 2],
+    /// Acceleration at the start and end of the step (m/s2).
+    pub acceleration: [f64; 2],
+}
+
+/// Held unknowns of a step.
+#[derive(Clone, Debug)]
+pub struct Constraints<const D: usize> {
+    /// Which unknowns are held.
+    pub held: Vec<[bool; D]>,
+    /// Those of them that follow a motion: (node, direction, motion); the others rest.
+    pub driven: Vec<(u32, u8, Driven)>,
+}
+
+impl<const D: usize> Constraints<D> {
+    /// Nothing held, for `nodes` nodes.
+    pub fn none(nodes: usize) -> Self {
+        Constraints {
+            held: vec![[false; D]; nodes],
+            driven: Vec::new(),
+        }
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.held.fill([false; D]);
+        self.driven.clear();
+    }
+
+    /// Holds one direction of the nodes.
+    pub fn hold(&mut self, nodes: &[u32], direction: usize) {
+        for &node in nodes {
+            self.held[node as usize][direction] = true;
+        }
+    }
+}
+
+/// A term on nodes: what holds, drives, damps or loads them.
+pub trait NodeTerm<const D: usize>: Send {
+    /// Holds unknowns during the step from `times[0]` to `times[1]` (s).
+    fn constrain(&self, _times: [f64; 2], _out: &mut Constraints<D>) {}
+
+    /// Does it damp by lumped coefficients?
+    fn damps(&self) -> bool {
+        false
+    }
+
+    /// Adds lumped damping, in terms of the nodes' masses.
+    fn lump(&self, _out: &mut Lumped<D>) {}
+
+    /// Adds the force on the nodes at time `t` (s) and velocity `v` (m/s).
+    fn force(&self, _t: f64, _v: &[Vector<D>], _active: &[bool], _out: &mut [Vector<D>]) {}
+
+    /// Adds minus the derivative of the force with respect to the velocity, times `rate` (1/s).
+    fn tangent(&self, _rate: f64, _active: &[bool], _out: &mut BlockMatrix<D>) {}
+
+    /// Finds the nodes of what is attached to the material. `Err` names a place outside the grid.
+    ///
+    /// # Errors
+    /// A place outside the grid.
+    fn attach(&mut self, _disc: &dyn Discretisation<D>) -> Result<(), Vector<D>> {
+        Ok(())
+    }
+
+    /// Moves what is attached to the material by the increment.
+    ///
+    /// # Errors
+    /// A place outside the grid.
+    fn advance(
+        &mut self,
+        _disc: &dyn Discretisation<D>,
+        _increment: &[Vector<D>],
+        _active: &[bool],
+    ) -> Result<(), Vector<D>> {
+        Ok(())
+    }
+}
+
+/// Nodes of the grid that `select` takes by their places.
+pub fn nodes_where<const D: usize>(
+    grid: &Grid<D>,
+    select: impl Fn(&Vector<D>) -> bool,
+) -> Vec<u32> {
+    (0..grid.node_count())
+        .filter(|&n| select(&grid.node_place(n)))
+        .map(|n| n as u32)
+        .collect()
+}

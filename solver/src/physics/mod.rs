@@ -1,0 +1,9 @@
+//! Unknowns and residuals: regions of points, terms on nodes, and the model that joins them.
+//!
+//! - [`kernel`]: what a region of points and a term on nodes have to say.
+//! - [`bulk`]: plain solid, kept on nodes or carried by points.
+//! - [`model`]: the semi-discrete system that integrators see.
+
+pub mod bulk;
+pub mod kernel;
+pub mod model;

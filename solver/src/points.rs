@@ -1,0 +1,103 @@
+//! Material points as a structure of arrays. Columns exist only where the run needs them.
+
+use crate::tensor::{Matrix, Vector};
+use std::ops::Range;
+
+/// Material points, ordered by region and within it by cell.
+#[derive(Clone, Debug, Default)]
+pub struct Points<const D: usize> {
+    /// Places (m).
+    pub place: Vec<Vector<D>>,
+    /// Volumes at the start (m3, per metre of thickness in 2D).
+    pub volume: Vec<f64>,
+    /// Masses (kg, per metre of thickness in 2D).
+    pub mass: Vec<f64>,
+    /// What points carry when they, and not the nodes, hold the motion.
+    pub motion: Option<Motion<D>>,
+}
+
+/// Velocity and acceleration carried by points.
+#[derive(Clone, Debug)]
+pub struct Motion<const D: usize> {
+    /// Velocities (m/s).
+    pub v: Vec<Vector<D>>,
+    /// Accelerations (m/s2).
+    pub a: Vec<Vector<D>>,
+    /// Gradients of both, for the affine transfer alone.
+    pub gradients: Option<Gradients<D>>,
+}
+
+/// Gradients of velocity and acceleration carried by points.
+#[derive(Clone, Debug)]
+pub struct Gradients<const D: usize> {
+    /// `L_v` (1/s).
+    pub v: Vec<Matrix<D>>,
+    /// `L_a` (1/s2).
+    pub a: Vec<Matrix<D>>,
+}
+
+impl<const D: usize> Points<D> {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.place.len()
+    }
+
+    /// Are there none?
+    pub fn is_empty(&self) -> bool {
+        self.place.is_empty()
+    }
+
+    /// Adds columns for points that carry the motion, at rest.
+    pub fn carry_motion(&mut self, affine: bool) {
+        let n = self.len();
+        let gradients = affine.then(|| Gradients {
+            v: vec![[[0.0; D]; D]; n],
+            a: vec![[[0.0; D]; D]; n],
+        });
+        self.motion = Some(Motion {
+            v: vec![[0.0; D]; n],
+            a: vec![[0.0; D]; n],
+            gradients,
+        });
+    }
+
+    /// Memory of one point in bytes, state of kernels and stencils aside.
+    pub fn bytes_per_point(&self) -> usize {
+        let vector = size_of::<Vector<D>>();
+        let base = vector + 2 * size_of::<f64>();
+        base + self.motion.as_ref().map_or(0, |m| {
+            2 * vector
+                + m.gradients
+                    .as_ref()
+                    .map_or(0, |_| 2 * size_of::<Matrix<D>>())
+        })
+    }
+
+    /// Fills a cell with `per_axis`^D points at the centres of its equal parts.
+    pub fn fill_cell(&mut self, lower: &Vector<D>, h: &Vector<D>, per_axis: usize, density: f64) {
+        let part = h.map(|h| h / per_axis as f64);
+        let volume = part.iter().product();
+        for k in 0..per_axis.pow(D as u32) {
+            let mut rest = k;
+            let place = std::array::from_fn(|a| {
+                let i = rest % per_axis;
+                rest /= per_axis;
+                lower[a] + part[a] * (i as f64 + 0.5)
+            });
+            self.place.push(place);
+            self.volume.push(volume);
+            self.mass.push(density * volume);
+        }
+    }
+}
+
+/// Points handled at once by the kernels: small enough for the first cache.
+pub const BLOCK: usize = 64;
+
+/// The blocks of a range of points.
+pub fn blocks(range: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+    let end = range.end;
+    range
+        .step_by(BLOCK)
+        .map(move |start| start..(start + BLOCK).min(end))
+}

@@ -1,0 +1,209 @@
+//! Fills a record while the model moves.
+
+use crate::basis::Sample;
+use crate::physics::model::Model;
+use crate::problem::Problem;
+use crate::record::{Column, Record, SeriesTable, Snapshot, SpaceTime};
+use crate::tensor::Vector;
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A tracer with its nodes.
+struct Tracer<const D: usize> {
+    place: Vector<D>,
+    displacement: Vector<D>,
+    sample: Sample,
+}
+
+/// Samples what the problem's probes ask for.
+pub(crate) struct Sampler<const D: usize> {
+    tracers: Vec<Tracer<D>>,
+    lines: Vec<Vec<Sample>>,
+    snapshots: Vec<f64>,
+    /// The body's nodes: the first and how many along each axis.
+    first: [usize; D],
+    counts: [usize; D],
+}
+
+impl<const D: usize> Sampler<D> {
+    /// Prepares `record` for the problem's probes.
+    pub(crate) fn new(problem: &Problem<D>, model: &Model<D>, record: &mut Record) -> Self {
+        let probes = &problem.probes;
+        let tracers = probes.receivers.iter().map(|r| Tracer {
+            place: r.place,
+            displacement: [0.0; D],
+            sample: model.disc.sample(&r.place),
+        });
+        for receiver in &probes.receivers {
+            for (quantity, unit) in [("u", "m"), ("v", "m/s")] {
+                for axis in &AXES[..D] {
+                    push(
+                        &mut record.receivers,
+                        format!("{}_{quantity}{axis}", receiver.name),
+                        unit,
+                    );
+                }
+            }
+        }
+        if probes.energy_every.is_some() {
+            for name in ["kinetic", "strain", "total"] {
+                push(&mut record.energy, name.to_owned(), "J");
+            }
+            for axis in &AXES[..D] {
+                push(&mut record.energy, format!("momentum_{axis}"), "kg m/s");
+            }
+        }
+        let lines = probes.lines.iter().map(|line| {
+            let place = |k: usize| {
+                let s = k as f64 / (line.samples - 1) as f64;
+                std::array::from_fn(|a| line.from[a] + s * (line.to[a] - line.from[a]))
+            };
+            let axis = (0..D).max_by(|&a, &b| {
+                let span = |a: usize| (line.to[a] - line.from[a]).abs();
+                span(a).total_cmp(&span(b))
+            });
+            let axis = axis.unwrap_or(0);
+            record.lines.push(SpaceTime {
+                name: format!("v{}", AXES[line.component]),
+                unit: "m/s".to_owned(),
+                positions: (0..line.samples).map(|k| place(k)[axis]).collect(),
+                axis: AXES[axis].to_owned(),
+                times: Vec::new(),
+                values: Vec::new(),
+            });
+            (0..line.samples)
+                .map(|k| model.disc.sample(&place(k)))
+                .collect()
+        });
+        let grid = &model.grid;
+        let index = |x: f64, a: usize| ((x - grid.origin[a]) / grid.h[a]).round() as usize;
+        let first = std::array::from_fn(|a| index(problem.target.lower[a], a));
+        let counts = std::array::from_fn(|a| index(problem.target.upper[a], a) - first[a] + 1);
+        Sampler {
+            tracers: tracers.collect(),
+            lines: lines.collect(),
+            snapshots: probes.snapshot_times.clone(),
+            first,
+            counts,
+        }
+    }
+
+    /// Samples the state at time `t` (s), after `step` steps.
+    pub(crate) fn sample(
+        &mut self,
+        problem: &Problem<D>,
+        model: &Model<D>,
+        step: usize,
+        t: f64,
+        record: &mut Record,
+    ) {
+        self.receivers(model, step, t, &mut record.receivers);
+        for ((line, samples), out) in problem
+            .probes
+            .lines
+            .iter()
+            .zip(&self.lines)
+            .zip(&mut record.lines)
+        {
+            if step.is_multiple_of(line.every) {
+                out.times.push(t);
+                let velocity =
+                    |s: &Sample| s.interpolate(&model.nodes.v, &model.nodes.active)[line.component];
+                out.values.extend(samples.iter().map(velocity));
+            }
+        }
+        if problem
+            .probes
+            .energy_every
+            .is_some_and(|every| step.is_multiple_of(every))
+        {
+            energy(model, t, &mut record.energy);
+        }
+        while self
+            .snapshots
+            .first()
+            .is_some_and(|s| *s <= t + 0.5 * problem.dt)
+        {
+            self.snapshots.remove(0);
+            record.snapshots.push(self.snapshot(model, t));
+        }
+    }
+
+    fn receivers(&mut self, model: &Model<D>, step: usize, t: f64, out: &mut SeriesTable) {
+        out.times.push(t);
+        let (nodes, moving) = (&model.nodes, model.moving);
+        for (tracer, columns) in self
+            .tracers
+            .iter_mut()
+            .zip(out.columns.chunks_exact_mut(2 * D))
+        {
+            let velocity = tracer.sample.interpolate(&nodes.v, &nodes.active);
+            if step > 0 {
+                let increment = tracer.sample.interpolate(&nodes.increment, &nodes.active);
+                for i in 0..D {
+                    tracer.displacement[i] += increment[i];
+                    tracer.place[i] += if moving { increment[i] } else { 0.0 };
+                }
+            }
+            for i in 0..D {
+                columns[i].values.push(tracer.displacement[i]);
+                columns[D + i].values.push(velocity[i]);
+            }
+            if moving {
+                tracer.sample = model.disc.sample(&tracer.place);
+            }
+        }
+    }
+
+    /// The displacement of the body's nodes.
+    fn snapshot(&self, model: &Model<D>, t: f64) -> Snapshot {
+        let mut counts = [1; 3];
+        let (mut origin, mut spacing) = ([0.0; 3], [0.0; 3]);
+        for a in 0..D {
+            counts[a] = self.counts[a];
+            origin[a] = model.grid.origin[a] + model.grid.h[a] * self.first[a] as f64;
+            spacing[a] = model.grid.h[a];
+        }
+        let total: usize = self.counts.iter().product();
+        let columns = (0..D).map(|i| Column {
+            name: format!("u{}", AXES[i]),
+            unit: "m".to_owned(),
+            values: (0..total)
+                .map(|k| {
+                    let mut rest = k;
+                    let index = std::array::from_fn(|a| {
+                        let along = rest % self.counts[a];
+                        rest /= self.counts[a];
+                        self.first[a] + along
+                    });
+                    model.nodes.u[model.grid.node(index)][i]
+                })
+                .collect(),
+        });
+        Snapshot {
+            time: t,
+            counts,
+            origin,
+            spacing,
+            columns: columns.collect(),
+        }
+    }
+}
+
+fn push(table: &mut SeriesTable, name: String, unit: &str) {
+    table.columns.push(Column {
+        name,
+        unit: unit.to_owned(),
+        values: Vec::new(),
+    });
+}
+
+fn energy<const D: usize>(model: &Model<D>, t: f64, out: &mut SeriesTable) {
+    let total = model.kinetic_energy(false) + model.strain_energy(false);
+    let mut values = vec![model.kinetic_energy(true), model.strain_energy(true), total];
+    values.extend(model.momentum());
+    out.times.push(t);
+    for (column, value) in out.columns.iter_mut().zip(values) {
+        column.values.push(value);
+    }
+}
