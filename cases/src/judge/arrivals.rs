@@ -10,7 +10,7 @@ const SILENT: f64 = 1e-6;
 /// Lags are looked for up to this share of a pulse's duration.
 const REACH: f64 = 0.2;
 
-/// The worst lag and the worst deviation of a peak over the arrivals of each receiver.
+/// The worst lag and the worst relative deviation of a peak over the arrivals of each receiver.
 pub fn measure(
     method: &str,
     against: Option<(Evidence, &str)>,
@@ -41,7 +41,13 @@ pub fn measure(
             let reach = REACH * (window.to - window.from);
             arrival_lag(times, values, reference, *window, reach)
         });
-        let height = worst(&|window| peak_deviation(times, values, reference, *window));
+        let height = worst(&|window| {
+            let mut worst = 0.0_f64;
+            for lobe in lobes(times, reference, window) {
+                worst = worst.max(peak_deviation(times, values, reference, lobe)?);
+            }
+            Ok(worst)
+        });
         for (metric, unit, value) in [("arrival_s", "s", lag), ("peak_deviation", "1", height)] {
             numbers.push(Measurement {
                 method: method.to_owned(),
@@ -54,6 +60,28 @@ pub fn measure(
         }
     }
     numbers
+}
+
+/// Parts of a window in which the reference keeps its sign: a pulse and its echo may overlap, and
+/// each has a peak of its own.
+fn lobes(times: &[f64], reference: &[f64], window: &Window) -> Vec<Window> {
+    let mut lobes: Vec<(Window, bool)> = Vec::new();
+    for (&time, &value) in times.iter().zip(reference) {
+        if time < window.from || time > window.to {
+            continue;
+        }
+        match lobes.last_mut() {
+            Some((lobe, positive)) if *positive == (value > 0.0) => lobe.to = time,
+            _ => lobes.push((
+                Window {
+                    from: time,
+                    to: time,
+                },
+                value > 0.0,
+            )),
+        }
+    }
+    lobes.into_iter().map(|(lobe, _)| lobe).collect()
 }
 
 /// Stretches in which the reference is not silent, and after which the record goes on long enough
@@ -119,6 +147,17 @@ mod tests {
         };
         assert!((value("arrival_s") - 0.03).abs() < 1e-3);
         assert!((value("peak_deviation") - 0.1).abs() < 1e-6);
+    }
+
+    #[test]
+    fn overlapping_pulses_of_opposite_sign_have_two_peaks() {
+        let times: Vec<f64> = (0..=100).map(|i| 0.01 * i as f64).collect();
+        let values: Vec<f64> = times.iter().map(|t| (2.0 * PI * t).sin()).collect();
+        let window = Window { from: 0.1, to: 0.9 };
+        let lobes = lobes(&times, &values, &window);
+        assert_eq!(lobes.len(), 2);
+        assert_eq!((lobes[0].from, lobes[1].to), (0.1, 0.9));
+        assert!(lobes[0].to < 0.51 && lobes[1].from > 0.49);
     }
 
     #[test]
