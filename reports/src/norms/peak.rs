@@ -121,7 +121,7 @@ mod tests {
     fn both_extremes_of_the_window_count() {
         let values = [9.0, 1.0, -3.0, 3.0, 0.0];
         let window = Window { from: 1.0, to: 4.0 };
-        let against = |reference| peak_deviation(&TIMES, &values, &reference, window);
+        let against = |reference: [f64; 5]| peak_deviation(&TIMES, &values, &reference, window);
         assert_eq!(against([0.0, 0.0, -4.0, 3.0, 0.0]), Ok(0.25));
         assert_eq!(against([0.0, 0.0, -4.0, 0.0, 0.0]), Ok(0.75));
         assert!(against([0.0; 5]).is_err());
