@@ -34,7 +34,7 @@ pub use field::{FieldNorms, field_norms};
 pub use fit::Slope;
 pub use group::{Score, group_of, group_worst, with_groups, with_groups_db};
 pub use order::{Order, order};
-pub use peak::{Peak, peak, peak_deviation, rd, rd_at, rd_of_maximum};
+pub use peak::{peak_deviation, rd, rd_at, rd_of_maximum};
 pub use traces::{Trace, Traces};
 
 use thiserror::Error;

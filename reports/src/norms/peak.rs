@@ -1,45 +1,35 @@
-//! Peaks in a window, and the relative difference to the standard run.
+//! Extremes in a window, and the relative difference to the standard run.
 
 use super::{NormError, Traces, Window, max_abs};
 
-/// The sample of largest absolute value in a window.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Peak {
-    /// When it occurs (s).
-    pub time_s: f64,
-    /// Its value with sign, in the unit of the series.
-    pub value: f64,
-}
-
-/// The first sample of largest absolute value in `window`.
-pub fn peak(times: &[f64], values: &[f64], window: Window) -> Result<Peak, NormError> {
-    let range = window.samples(times, values)?;
-    let mut best = range.start;
-    for i in range {
-        if values[i].abs() > values[best].abs() {
-            best = i;
-        }
-    }
-    Ok(Peak {
-        time_s: times[best],
-        value: values[best],
-    })
-}
-
-/// Relative deviation of the peak in `window` from that of the reference, sign included:
-/// abs(peak - peak_ref) / abs(peak_ref).
+/// Deviation of the highest and of the lowest value in `window` from those of the reference, the
+/// larger of the two, over the largest absolute value of the reference.
+///
+/// Both ends count, since a pulse and its echo can be equally large with opposite signs.
 pub fn peak_deviation(
     times: &[f64],
     values: &[f64],
     reference: &[f64],
     window: Window,
 ) -> Result<f64, NormError> {
-    let mine = peak(times, values, window)?.value;
-    let truth = peak(times, reference, window)?.value;
-    if truth == 0.0 {
+    let (low, high) = extremes(times, values, window)?;
+    let (true_low, true_high) = extremes(times, reference, window)?;
+    let size = true_low.abs().max(true_high.abs());
+    if size == 0.0 {
         return Err(zero("the peak of the reference"));
     }
-    Ok((mine - truth).abs() / truth.abs())
+    Ok((low - true_low).abs().max((high - true_high).abs()) / size)
+}
+
+/// Lowest and highest value in `window`.
+fn extremes(times: &[f64], values: &[f64], window: Window) -> Result<(f64, f64), NormError> {
+    let range = window.samples(times, values)?;
+    let fold =
+        |best: fn(f64, f64) -> f64, start| values[range.clone()].iter().copied().fold(start, best);
+    Ok((
+        fold(f64::min, f64::INFINITY),
+        fold(f64::max, f64::NEG_INFINITY),
+    ))
 }
 
 /// Relative difference (K25 Eq 44): (standard - method) / standard.
@@ -128,27 +118,23 @@ mod tests {
     }
 
     #[test]
-    fn peak_keeps_its_sign_and_its_window() {
+    fn both_extremes_of_the_window_count() {
         let values = [9.0, 1.0, -3.0, 3.0, 0.0];
         let window = Window { from: 1.0, to: 4.0 };
-        let p = peak(&TIMES, &values, window).expect("defined");
-        assert_eq!((p.time_s, p.value), (2.0, -3.0));
-        let reference = [0.0, 0.0, -4.0, 0.0, 0.0];
-        let deviation = peak_deviation(&TIMES, &values, &reference, window).expect("defined");
-        assert_eq!(deviation, 0.25);
-        assert!(peak_deviation(&TIMES, &values, &[0.0; 5], window).is_err());
+        let against = |reference: [f64; 5]| peak_deviation(&TIMES, &values, &reference, window);
+        assert_eq!(against([0.0, 0.0, -4.0, 3.0, 0.0]), Ok(0.25));
+        assert_eq!(against([0.0, 0.0, -4.0, 0.0, 0.0]), Ok(0.75));
+        assert!(against([0.0; 5]).is_err());
     }
 
     #[test]
-    fn a_reversed_peak_deviates_by_two() {
+    fn a_pulse_and_its_reversed_echo_of_the_same_size_do_not_confuse() {
         let window = Window { from: 0.0, to: 4.0 };
-        let deviation = peak_deviation(
-            &TIMES,
-            &[0.0, -1.0, 0.0, 0.0, 0.0],
-            &[0.0, 1.0, 0.0, 0.0, 0.0],
-            window,
-        );
-        assert_eq!(deviation, Ok(2.0));
+        let reference = [0.0, 1.0, 0.0, -1.0, 0.0];
+        let close = peak_deviation(&TIMES, &[0.0, 0.98, 0.0, -0.99, 0.0], &reference, window);
+        assert!((close.expect("defined") - 0.02).abs() < 1e-12);
+        let reversed = peak_deviation(&TIMES, &[0.0, -1.0, 0.0, 0.0, 0.0], &reference, window);
+        assert_eq!(reversed, Ok(1.0));
     }
 
     #[test]
