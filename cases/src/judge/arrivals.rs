@@ -2,10 +2,14 @@
 
 use anechoic_reference::claim::Evidence;
 use anechoic_reports::judge::Measurement;
-use anechoic_reports::norms::{NormError, Traces, Window, arrival_lag, peak_deviation};
+use anechoic_reports::norms::{NormError, Traces, Window, arrival_lag};
+use std::ops::Range;
 
 /// Below this share of its peak the reference counts as silent.
 const SILENT: f64 = 1e-6;
+
+/// Peaks below this share of the highest are no arrivals of their own.
+const RIPPLE: f64 = 0.1;
 
 /// Lags are looked for up to this share of a pulse's duration.
 const REACH: f64 = 0.2;
@@ -20,7 +24,6 @@ pub fn measure(
     let mut numbers = Vec::new();
     for (mine, true_trace) in run.receivers().iter().zip(truth.receivers()) {
         // The strongest component carries the pulses.
-        let peak = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         let Some(axis) = (0..true_trace.components.len()).max_by(|&a, &b| {
             peak(&true_trace.components[a]).total_cmp(&peak(&true_trace.components[b]))
         }) else {
@@ -42,11 +45,11 @@ pub fn measure(
             arrival_lag(times, values, reference, *window, reach)
         });
         let height = worst(&|window| {
-            let mut worst = 0.0_f64;
-            for lobe in lobes(times, reference, window) {
-                worst = worst.max(peak_deviation(times, values, reference, lobe)?);
-            }
-            Ok(worst)
+            let deviations = lobes(times, reference, window)
+                .into_iter()
+                .filter(|lobe| peak(&reference[lobe.clone()]) > RIPPLE * peak(reference))
+                .map(|lobe| peak_deviation(&values[lobe.clone()], &reference[lobe]));
+            Ok(deviations.fold(0.0, f64::max))
         });
         for (metric, unit, value) in [("arrival_s", "s", lag), ("peak_deviation", "1", height)] {
             numbers.push(Measurement {
@@ -62,34 +65,48 @@ pub fn measure(
     numbers
 }
 
-/// Parts of a window in which the reference keeps its sign: a pulse and its echo may overlap, and
+/// Samples of a window in which the reference keeps its sign: a pulse and its echo may overlap, and
 /// each has a peak of its own.
-fn lobes(times: &[f64], reference: &[f64], window: &Window) -> Vec<Window> {
-    let mut lobes: Vec<(Window, bool)> = Vec::new();
-    for (&time, &value) in times.iter().zip(reference) {
-        if time < window.from || time > window.to {
+fn lobes(times: &[f64], reference: &[f64], window: &Window) -> Vec<Range<usize>> {
+    let mut lobes: Vec<Range<usize>> = Vec::new();
+    for (i, time) in times.iter().enumerate() {
+        if *time < window.from || *time > window.to {
             continue;
         }
+        let same_sign = |lobe: &Range<usize>| (reference[lobe.start] > 0.0) == (reference[i] > 0.0);
         match lobes.last_mut() {
-            Some((lobe, positive)) if *positive == (value > 0.0) => lobe.to = time,
-            _ => lobes.push((
-                Window {
-                    from: time,
-                    to: time,
-                },
-                value > 0.0,
-            )),
+            Some(lobe) if same_sign(lobe) => lobe.end = i + 1,
+            _ => lobes.push(i..i + 1),
         }
     }
-    lobes.into_iter().map(|(lobe, _)| lobe).collect()
+    lobes
+}
+
+/// Relative deviation of the peak of one lobe, in the direction of the reference.
+fn peak_deviation(values: &[f64], reference: &[f64]) -> f64 {
+    let direction = if reference.iter().sum::<f64>() < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    let top = |series: &[f64]| {
+        let along = series.iter().map(|v| direction * v);
+        along.fold(f64::NEG_INFINITY, f64::max)
+    };
+    (top(values) / top(reference) - 1.0).abs()
+}
+
+/// Largest absolute value.
+fn peak(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
 
 /// Stretches in which the reference is not silent, and after which the record goes on long enough
 /// to look for a late arrival.
 fn arrivals(times: &[f64], reference: &[f64]) -> Vec<Window> {
-    let peak = reference.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let threshold = SILENT * peak(reference);
     let loud: Vec<usize> = (0..times.len())
-        .filter(|&i| reference[i].abs() > SILENT * peak)
+        .filter(|&i| reference[i].abs() > threshold)
         .collect();
     let mut windows: Vec<(usize, usize)> = Vec::new();
     for i in loud {
@@ -154,10 +171,12 @@ mod tests {
         let times: Vec<f64> = (0..=100).map(|i| 0.01 * i as f64).collect();
         let values: Vec<f64> = times.iter().map(|t| (2.0 * PI * t).sin()).collect();
         let window = Window { from: 0.1, to: 0.9 };
-        let lobes = lobes(&times, &values, &window);
-        assert_eq!(lobes.len(), 2);
-        assert_eq!((lobes[0].from, lobes[1].to), (0.1, 0.9));
-        assert!(lobes[0].to < 0.51 && lobes[1].from > 0.49);
+        assert_eq!(lobes(&times, &values, &window), [10..51, 51..91]);
+        // The second peak alone is too low, and the first one does not hide it.
+        let low: Vec<f64> = values.iter().map(|v| v.max(-0.9)).collect();
+        let deviation = |lobe: Range<usize>| peak_deviation(&low[lobe.clone()], &values[lobe]);
+        assert!(deviation(10..51) < 1e-12);
+        assert!((deviation(51..91) - 0.1).abs() < 1e-12);
     }
 
     #[test]

@@ -152,7 +152,7 @@ pub(super) fn claims(scene: &Compression1d) -> Vec<SceneClaim> {
             at,
             0.03,
             analytic,
-            "peaks of the pulse and its echoes; a pulse is 31 cells long at h = 1 m, but where it overlaps its echo (B) the peaks are cusps, which the mesh rounds off",
+            "every peak of the pulse and its echoes, 31 cells a pulse at h = 1 m; the cusps where a pulse meets its echo (near the base) count as well",
         );
         claim(
             "fixed",
