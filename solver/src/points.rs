@@ -12,11 +12,13 @@ pub struct Points<const D: usize> {
     pub volume: Vec<f64>,
     /// Masses (kg, per metre of thickness in 2D).
     pub mass: Vec<f64>,
+    /// Factors of inertia in each direction (K25 (16)); absent when all are 1.
+    pub inertia: Option<Vec<Vector<D>>>,
     /// What points carry when they, and not the nodes, hold the motion.
     pub motion: Option<Motion<D>>,
 }
 
-/// Velocity and acceleration carried by points.
+/// Motion carried by the first points; those behind them rest.
 #[derive(Clone, Debug)]
 pub struct Motion<const D: usize> {
     /// Velocities (m/s).
@@ -25,6 +27,8 @@ pub struct Motion<const D: usize> {
     pub a: Vec<Vector<D>>,
     /// Gradients of both, for the affine transfer alone.
     pub gradients: Option<Gradients<D>>,
+    /// Displacements (m), where a layer asks for them.
+    pub u: Option<Vec<Vector<D>>>,
 }
 
 /// Gradients of velocity and acceleration carried by points.
@@ -47,9 +51,8 @@ impl<const D: usize> Points<D> {
         self.place.is_empty()
     }
 
-    /// Adds columns for points that carry the motion, at rest.
-    pub fn carry_motion(&mut self, affine: bool) {
-        let n = self.len();
+    /// Adds columns for the first `n` points to carry the motion, at rest.
+    pub fn carry_motion(&mut self, n: usize, affine: bool) {
         let gradients = affine.then(|| Gradients {
             v: vec![[[0.0; D]; D]; n],
             a: vec![[[0.0; D]; D]; n],
@@ -58,6 +61,7 @@ impl<const D: usize> Points<D> {
             v: vec![[0.0; D]; n],
             a: vec![[0.0; D]; n],
             gradients,
+            u: None,
         });
     }
 

@@ -2,7 +2,7 @@
 
 use crate::Bill;
 use crate::basis::on_grid;
-use crate::boundary::{self, Assigned, Context, End, Layout};
+use crate::boundary::{self, Assigned, Context, DisplacementTransfer, End, LayerPoints, Layout};
 use crate::drive::{PointForce, SideDrive};
 use crate::error::SolverError;
 use crate::grid::Grid;
@@ -11,10 +11,11 @@ use crate::material::MaterialBlock;
 use crate::material::linear_elastic::LinearElastic;
 use crate::physics::bulk::{Carried, Kept};
 use crate::physics::kernel::{NodeTerm, RegionKernel};
-use crate::physics::model::{Model, Region};
+use crate::physics::model::{Model, Parts, Region};
 use crate::points::Points;
 use crate::problem::{Aabb, Drive, PointMode, Problem, Scheme, Side, SolverKind, Transfer};
 use crate::tensor::Vector;
+use std::ops::Range;
 
 /// Free surfaces of moving material get so many empty cells to move into.
 const MARGIN_CELLS: usize = 2;
@@ -76,6 +77,36 @@ impl<const D: usize> Geometry<D> {
             grid,
             per_axis,
         })
+    }
+
+    /// Whose points a cell with this centre holds: a layer of its own has what lies beyond its side.
+    fn owner(&self, target: &Aabb<D>, centre: &Vector<D>) -> Result<Owner, SolverError> {
+        let mut owner = Owner::Target;
+        for a in &self.assigned {
+            let axis = a.side.axis;
+            let beyond = if a.side.upper {
+                centre[axis] > target.upper[axis]
+            } else {
+                centre[axis] < target.lower[axis]
+            };
+            if !beyond {
+                continue;
+            }
+            owner = match (owner, a.layout.layer) {
+                (Owner::Layer(name, _), Some(_)) if name != a.method.method => {
+                    let reason =
+                        format!("layers of {name} and {} meet in a corner", a.method.method);
+                    return Err(setup_error(format!("boundary.{}", a.side.name()), reason));
+                }
+                (_, Some(layer)) => {
+                    let info = boundary::find(&a.method.method);
+                    Owner::Layer(info.map_or("", |m| m.name), layer)
+                }
+                (layer @ Owner::Layer(..), None) => layer,
+                (_, None) => Owner::Outside,
+            };
+        }
+        Ok(owner)
     }
 
     fn material_cells_along(&self) -> [usize; D] {
@@ -168,58 +199,141 @@ fn check<const D: usize>(problem: &Problem<D>) -> Result<(), SolverError> {
 /// [`SolverError::Setup`] naming the field at fault.
 pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverError> {
     let geometry = Geometry::new(problem)?;
-    let moving = problem.point_mode == PointMode::Moving;
-    let (mut points, in_target) = fill(problem, &geometry);
-    if problem.transfer != Transfer::Keep && problem.scheme != Scheme::QuasiStatic {
-        points.carry_motion(problem.transfer == Transfer::Affine);
-    }
-    let kernel = |range: std::ops::Range<usize>| -> Box<dyn RegionKernel<D>> {
-        let material: Box<dyn MaterialBlock<D>> = Box::new(LinearElastic::new(&problem.material));
-        match problem.transfer {
-            Transfer::Keep => Box::new(Kept::new(range, material)),
-            _ => Box::new(Carried::new(range, material, moving)),
+    let frozen = problem.point_mode == PointMode::Frozen;
+    let Filled { mut points, ranges } = fill(problem, &geometry)?;
+    let mut regions = Vec::new();
+    let mut terms = Vec::new();
+    let mut first_kept = points.len();
+    let mut movable = 0;
+    let mut displacement = None;
+    let mut replaced_displacement = None;
+    let mut inertia: Option<Vec<Vector<D>>> = None;
+    for (owner, range) in &ranges {
+        if let Owner::Layer(_, layer) = owner {
+            if *layer == LayerPoints::Kept {
+                first_kept = first_kept.min(range.start);
+            }
+            continue;
         }
-    };
-    let mut regions = vec![Region {
-        range: 0..in_target,
-        in_target: true,
-        kernel: kernel(0..in_target),
-    }];
-    if points.len() > in_target {
-        let range = in_target..points.len();
+        movable = range.end;
         regions.push(Region {
             range: range.clone(),
-            in_target: false,
-            kernel: kernel(range),
+            in_target: *owner == Owner::Target,
+            kernel: bulk(problem, range.clone()),
         });
     }
-    let terms = terms(problem, &geometry, moving)?;
+    for info in boundary::METHODS {
+        let owned = ranges
+            .iter()
+            .find(|(o, _)| matches!(o, Owner::Layer(n, _) if *n == info.name));
+        let layer = owned.map_or(0..0, |(_, r)| r.clone());
+        let Some(context) = context(problem, &geometry, info.name, &points, layer.clone()) else {
+            continue;
+        };
+        let parts = boundary::build(info.name, &context)?;
+        terms.extend(parts.terms);
+        if let Some(kernel) = parts.kernel {
+            regions.push(Region {
+                range: layer.clone(),
+                in_target: false,
+                kernel,
+            });
+        }
+        if let Some(factors) = parts.inertia {
+            let all = inertia.get_or_insert_with(|| vec![[1.0; D]; points.len()]);
+            all[layer.clone()].copy_from_slice(&factors);
+        }
+        if let Some(how) = parts.displacement {
+            displacement = Some(how);
+            if how == DisplacementTransfer::Replaced {
+                replaced_displacement = Some(layer);
+            }
+        }
+    }
+    points.inertia = inertia;
+    terms.extend(drives(problem, &geometry));
+    if problem.transfer != Transfer::Keep && problem.scheme != Scheme::QuasiStatic {
+        points.carry_motion(first_kept, problem.transfer == Transfer::Affine);
+        if let (Some(_), Some(motion)) = (displacement, points.motion.as_mut()) {
+            motion.u = Some(vec![[0.0; D]; first_kept]);
+        }
+    }
     let kind = match (problem.solver, problem.scheme) {
         // without inertia the condition of the matrix grows with the mesh
         (SolverKind::Auto, Scheme::QuasiStatic) => SolverKind::Direct,
         (kind, _) => kind,
     };
-    let solver = LinearSolver::new(kind, problem.rel_tol, geometry.grid.node_count());
-    let disc = on_grid(problem.basis, &geometry.grid);
-    Model::new(
-        geometry.grid,
-        disc,
+    Model::new(Parts {
+        solver: LinearSolver::new(kind, problem.rel_tol, geometry.grid.node_count()),
+        disc: on_grid(problem.basis, &geometry.grid),
+        grid: geometry.grid,
         points,
         regions,
         terms,
-        moving,
-        problem.transfer,
-        solver,
-    )
+        movable: (!frozen).then_some(movable),
+        first_kept: if problem.transfer == Transfer::Keep {
+            0
+        } else {
+            first_kept
+        },
+        replaced_displacement,
+        transfer: problem.transfer,
+    })
 }
 
-/// Fills the material with points, those of the body first; returns how many those are.
-fn fill<const D: usize>(problem: &Problem<D>, geometry: &Geometry<D>) -> (Points<D>, usize) {
-    let mut points = Points::default();
-    let mut in_target = 0;
+/// The kernel of plain material.
+fn bulk<const D: usize>(problem: &Problem<D>, range: Range<usize>) -> Box<dyn RegionKernel<D>> {
+    let material: Box<dyn MaterialBlock<D>> = Box::new(LinearElastic::new(&problem.material));
+    match problem.transfer {
+        Transfer::Keep => Box::new(Kept::new(range, material)),
+        _ => {
+            let finite = problem.point_mode == PointMode::Moving;
+            Box::new(Carried::new(range, material, finite))
+        }
+    }
+}
+
+/// Whose points a cell holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Owner {
+    /// The body.
+    Target,
+    /// Plain material outside it.
+    Outside,
+    /// A method's own layer.
+    Layer(&'static str, LayerPoints),
+}
+
+/// Points with the ranges of their owners.
+struct Filled<const D: usize> {
+    points: Points<D>,
+    ranges: Vec<(Owner, Range<usize>)>,
+}
+
+/// Fills the material with points: the body first, then plain material, layers that carry the motion,
+/// layers at rest.
+fn fill<const D: usize>(
+    problem: &Problem<D>,
+    geometry: &Geometry<D>,
+) -> Result<Filled<D>, SolverError> {
+    let mut owners = vec![Owner::Target, Owner::Outside];
+    for layer in [LayerPoints::Carried, LayerPoints::Kept] {
+        let has = |name: &str| {
+            let mut sides = geometry.assigned.iter().filter(|a| a.method.method == name);
+            sides.any(|a| a.layout.layer == Some(layer))
+        };
+        let names = boundary::METHODS
+            .iter()
+            .map(|m| m.name)
+            .filter(|name| has(name));
+        owners.extend(names.map(|name| Owner::Layer(name, layer)));
+    }
     let h = geometry.grid.h;
     let counts = geometry.material_cells_along();
-    for body in [true, false] {
+    let mut points = Points::default();
+    let mut ranges = Vec::new();
+    for wanted in owners {
+        let start = points.len();
         for cell in 0..counts.iter().product() {
             let mut rest = cell;
             let lower: Vector<D> = std::array::from_fn(|a| {
@@ -227,46 +341,49 @@ fn fill<const D: usize>(problem: &Problem<D>, geometry: &Geometry<D>) -> (Points
                 rest /= counts[a];
                 geometry.material_box.lower[a] + h[a] * index as f64
             });
-            let inside = (0..D).all(|a| {
-                let centre = lower[a] + 0.5 * h[a];
-                centre > problem.target.lower[a] && centre < problem.target.upper[a]
-            });
-            if inside == body {
+            let centre: Vector<D> = std::array::from_fn(|a| lower[a] + 0.5 * h[a]);
+            if geometry.owner(&problem.target, &centre)? == wanted {
                 points.fill_cell(&lower, &h, geometry.per_axis, problem.material.density);
             }
         }
-        if body {
-            in_target = points.len();
+        if points.len() > start {
+            ranges.push((wanted, start..points.len()));
         }
     }
-    (points, in_target)
+    Ok(Filled { points, ranges })
 }
 
-/// Terms of all boundary methods, then of the drives, which may move what a wall would hold.
-fn terms<const D: usize>(
+/// What the method called `name` may know; `None` when no side uses it.
+fn context<'a, const D: usize>(
+    problem: &Problem<D>,
+    geometry: &'a Geometry<D>,
+    name: &str,
+    points: &'a Points<D>,
+    layer: Range<usize>,
+) -> Option<Context<'a, D>> {
+    let uses = |a: &&Assigned| a.method.method == name;
+    let sides: Vec<Assigned> = geometry.assigned.iter().filter(uses).cloned().collect();
+    (!sides.is_empty()).then(|| Context {
+        grid: &geometry.grid,
+        target: problem.target,
+        material_box: geometry.material_box,
+        material: problem.material,
+        moving: problem.point_mode == PointMode::Moving,
+        transfer: problem.transfer,
+        points,
+        layer,
+        sides,
+    })
+}
+
+/// The drives, which come after the walls since they may move what a wall would hold.
+fn drives<const D: usize>(
     problem: &Problem<D>,
     geometry: &Geometry<D>,
-    moving: bool,
-) -> Result<Vec<Box<dyn NodeTerm<D>>>, SolverError> {
-    let mut terms = Vec::new();
-    for info in boundary::METHODS {
-        let uses = |a: &&Assigned| a.method.method == info.name;
-        let sides: Vec<Assigned> = geometry.assigned.iter().filter(uses).cloned().collect();
-        if sides.is_empty() {
-            continue;
-        }
-        let context = Context {
-            grid: &geometry.grid,
-            target: problem.target,
-            material_box: geometry.material_box,
-            material: problem.material,
-            moving,
-            sides,
-        };
-        terms.extend(boundary::build(info.name, &context)?.terms);
-    }
-    for drive in &problem.drives {
-        terms.push(match drive {
+) -> Vec<Box<dyn NodeTerm<D>>> {
+    let moving = problem.point_mode == PointMode::Moving;
+    let term = |drive: &Drive<D>| -> Box<dyn NodeTerm<D>> {
+        match drive {
             Drive::SideVelocity { side, pulse } => {
                 let region = &problem.target;
                 let plane = if side.upper {
@@ -280,11 +397,10 @@ fn terms<const D: usize>(
                 place,
                 direction,
                 pulse,
-            } => Box::new(PointForce::new(*place, *direction, *pulse, moving))
-                as Box<dyn NodeTerm<D>>,
-        });
-    }
-    Ok(terms)
+            } => Box::new(PointForce::new(*place, *direction, *pulse, moving)),
+        }
+    };
+    problem.drives.iter().map(term).collect()
 }
 
 /// Whole steps that reach the end of the run.
@@ -299,7 +415,7 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
     let mut sample = Points::<D>::default();
     sample.fill_cell(&[0.0; D], &[1.0; D], 1, 1.0);
     if problem.transfer != Transfer::Keep {
-        sample.carry_motion(problem.transfer == Transfer::Affine);
+        sample.carry_motion(1, problem.transfer == Transfer::Affine);
     }
     let stress = if problem.transfer == Transfer::Keep {
         0

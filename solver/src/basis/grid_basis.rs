@@ -98,6 +98,11 @@ impl<B: Basis, const D: usize> Discretisation<D> for GridDiscretisation<B, D> {
         self.nodes.resize(places.len() * w, 0);
         self.values.resize(places.len() * w, 0.0);
         self.gradients.resize(places.len() * w, [0.0; D]);
+        self.replace(places)
+    }
+
+    fn replace(&mut self, places: &[Vector<D>]) -> Result<(), usize> {
+        let w = B::width(D);
         let stencils = self
             .nodes
             .chunks_exact_mut(w)

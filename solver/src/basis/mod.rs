@@ -70,6 +70,12 @@ pub trait Discretisation<const D: usize>: Send {
     /// Takes the places of all points. `Err(p)` names the first point that no node sees.
     fn place(&mut self, places: &[Vector<D>]) -> Result<(), usize>;
 
+    /// Takes new places of the first points. `Err(p)` as for [`Discretisation::place`].
+    ///
+    /// # Errors
+    /// The first point that no node sees.
+    fn replace(&mut self, places: &[Vector<D>]) -> Result<(), usize>;
+
     /// Nodes and weights at `x`; empty outside.
     fn sample(&self, x: &Vector<D>) -> Sample;
 

@@ -65,7 +65,7 @@ pub(crate) fn layout<const D: usize>(
         _ => End::Fixed,
     };
     if method.choice(&METHOD, "placement") == "outside" {
-        return Ok(Layout { outside: thickness, inside: 0.0, end });
+        return Ok(Layout { outside: thickness, inside: 0.0, end, layer: None });
     }
     let depth = problem.target.upper[side.axis] - problem.target.lower[side.axis];
     if thickness > depth {
@@ -74,7 +74,7 @@ pub(crate) fn layout<const D: usize>(
             reason: format!("a layer of {thickness} m does not fit inside a body of {depth} m"),
         });
     }
-    Ok(Layout { outside: 0.0, inside: thickness, end })
+    Ok(Layout { outside: 0.0, inside: thickness, end, layer: None })
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
@@ -102,7 +102,7 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
     let nodes = damped.map(|(n, s)| (n as u32, *s)).collect();
     let mut terms = walls(context);
     terms.push(Box::new(DampingLayer { nodes }));
-    Ok(Parts { terms })
+    Ok(Parts::of_terms(terms))
 }
 
 /// Nodes with their damping rates (1/s).
@@ -111,15 +111,12 @@ struct DampingLayer {
 }
 
 impl<const D: usize> NodeTerm<D> for DampingLayer {
-    fn damps(&self) -> bool {
-        true
-    }
-
     fn lump(&self, out: &mut Lumped<D>) {
         for &(node, rate) in &self.nodes {
             let node = node as usize;
             for i in 0..D {
-                out.viscous[node][i] += rate * out.mass[node][i];
+                let damping = rate * out.mass[node][i];
+                out.viscous_mut()[node][i] += damping;
             }
         }
     }

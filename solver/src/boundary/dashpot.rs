@@ -54,7 +54,7 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
         let surface = Surface::new(context, assigned.side);
         Box::new(Dashpot { surface, impedance, moving: context.moving }) as Box<dyn NodeTerm<D>>
     });
-    Ok(Parts { terms: terms.collect() })
+    Ok(Parts::of_terms(terms.collect()))
 }
 
 /// Dashpots on one side.

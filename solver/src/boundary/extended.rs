@@ -31,9 +31,9 @@ pub(crate) fn layout<const D: usize>(
         let needed = 0.5 * problem.material.p_speed() * problem.end_time;
         needed + CELLS_AHEAD * problem.cell_size
     });
-    Ok(Layout { outside, inside: 0.0, end: End::Fixed })
+    Ok(Layout { outside, inside: 0.0, end: End::Fixed, layer: None })
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
-    Ok(Parts { terms: walls(context) })
+    Ok(Parts::of_terms(walls(context)))
 }

@@ -17,5 +17,5 @@ pub(crate) fn layout<const D: usize>(
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
-    Ok(Parts { terms: walls(context) })
+    Ok(Parts::of_terms(walls(context)))
 }

@@ -5,6 +5,7 @@
 //! function `build` that makes its terms for all sides that use it. The line in the list below makes
 //! the `mod`, the table [`METHODS`] and the dispatch.
 
+mod layer;
 pub mod params;
 mod surface;
 mod wall;
@@ -13,8 +14,11 @@ pub use params::{MethodInfo, Param, ParamKind, SideMethod, Value};
 
 use crate::error::SolverError;
 use crate::grid::Grid;
-use crate::physics::kernel::NodeTerm;
-use crate::problem::{Aabb, Elastic, Problem, Side};
+use crate::physics::kernel::{NodeTerm, RegionKernel};
+use crate::points::Points;
+use crate::problem::{Aabb, Elastic, Problem, Side, Transfer};
+use crate::tensor::Vector;
+use std::ops::Range;
 
 /// What holds the outer end of a side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,12 +40,25 @@ pub struct Layout {
     pub inside: f64,
     /// What holds the outer end.
     pub end: End,
+    /// Who handles the points of the added material: the method's own kernel, or `None` for the
+    /// material's.
+    pub layer: Option<LayerPoints>,
+}
+
+/// How the points of a layer with a kernel of its own behave.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LayerPoints {
+    /// They rest, and their nodes keep the motion.
+    Kept,
+    /// They carry the motion as the body's points do, from places that stay.
+    Carried,
 }
 
 impl Layout {
     /// Nothing added, the body's own side held by `end`.
     pub fn plain(end: End) -> Self {
         Layout {
+            layer: None,
             outside: 0.0,
             inside: 0.0,
             end,
@@ -73,6 +90,12 @@ pub struct Context<'a, const D: usize> {
     pub material: Elastic,
     /// Do points move?
     pub moving: bool,
+    /// Transfer between points and nodes.
+    pub transfer: Transfer,
+    /// All points.
+    pub points: &'a Points<D>,
+    /// Those of the method's own layer.
+    pub layer: Range<usize>,
     /// The sides that use the method.
     pub sides: Vec<Assigned>,
 }
@@ -92,6 +115,34 @@ impl<const D: usize> Context<'_, D> {
 pub struct Parts<const D: usize> {
     /// Terms on nodes.
     pub terms: Vec<Box<dyn NodeTerm<D>>>,
+    /// The kernel of its own layer.
+    pub kernel: Option<Box<dyn RegionKernel<D>>>,
+    /// Factors of inertia of the layer's points in each direction, when they carry the motion.
+    pub inertia: Option<Vec<Vector<D>>>,
+    /// Do points carry their displacement, and do those of the layer take it from the nodes anew in
+    /// every step?
+    pub displacement: Option<DisplacementTransfer>,
+}
+
+/// How the points of a layer get their displacement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DisplacementTransfer {
+    /// From the nodes anew in every step (K25 (18)): a low-pass filter.
+    Replaced,
+    /// By the step's increment.
+    Incremental,
+}
+
+impl<const D: usize> Parts<D> {
+    /// Terms alone.
+    pub fn of_terms(terms: Vec<Box<dyn NodeTerm<D>>>) -> Self {
+        Parts {
+            terms,
+            kernel: None,
+            inertia: None,
+            displacement: None,
+        }
+    }
 }
 
 macro_rules! methods {
@@ -121,7 +172,7 @@ macro_rules! methods {
             $(if name == $module::METHOD.name {
                 return $module::build(context);
             })*
-            Ok(Parts { terms: Vec::new() })
+            Ok(Parts::of_terms(Vec::new()))
         }
     };
 }
@@ -132,6 +183,8 @@ methods! {
     fixed,
     dashpot,
     damping_layer,
+    pml,
+    pml_stretched,
     extended,
 }
 

@@ -63,6 +63,13 @@ impl<const D: usize> BlockMatrix<D> {
         add_into(&mut self.blocks[slot], value);
     }
 
+    /// Adds a matrix of the same pattern.
+    pub fn add_matrix(&mut self, other: &Self) {
+        for (a, b) in self.blocks.iter_mut().zip(&other.blocks) {
+            add_into(a, b);
+        }
+    }
+
     /// Adds a diagonal, one entry an unknown.
     pub fn add_diagonal(&mut self, scale: f64, diagonal: &[Vector<D>]) {
         for (row, d) in diagonal.iter().enumerate() {

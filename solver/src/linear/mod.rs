@@ -1,5 +1,6 @@
 //! Sparse assembly, factorisation, iteration.
 
+pub mod bicgstab;
 pub mod block_matrix;
 pub mod cg;
 pub mod direct;
@@ -8,8 +9,9 @@ use crate::error::SolverError;
 use crate::problem::SolverKind;
 use crate::tensor::Vector;
 use crate::time::ForceScale;
+use bicgstab::BiCgStab;
 use block_matrix::BlockMatrix;
-use cg::ConjugateGradients;
+use cg::{ConjugateGradients, Iterated};
 use direct::Cholesky;
 
 /// Conjugate gradients give way to a factorisation beyond this many iterations: a triangular solve
@@ -32,6 +34,8 @@ pub struct Moment {
 pub struct Equations<'a, const D: usize> {
     /// A.
     pub matrix: &'a BlockMatrix<D>,
+    /// Is A symmetric (and positive definite)?
+    pub symmetric: bool,
     /// Unknowns that stay zero.
     pub held: &'a [[bool; D]],
     /// b.
@@ -49,6 +53,7 @@ pub struct LinearSolver<const D: usize> {
     order: Option<Vec<u32>>,
     iterative: ConjugateGradients<D>,
     direct: Option<Cholesky<D>>,
+    unsymmetric: Option<BiCgStab<D>>,
     /// Is the factorisation that of the present matrix?
     factorised: bool,
     /// Iterations that made it change over.
@@ -67,6 +72,7 @@ impl<const D: usize> LinearSolver<D> {
             order: None,
             iterative: ConjugateGradients::new(nodes),
             direct: None,
+            unsymmetric: None,
             factorised: false,
             changed_over: None,
             iterations: 0,
@@ -92,11 +98,26 @@ impl<const D: usize> LinearSolver<D> {
     ) -> Result<(), SolverError> {
         let Equations {
             matrix,
+            symmetric,
             held,
             b,
             scale,
         } = *equations;
         self.solves += 1;
+        let tolerance = self.rel_tol * scale.largest + scale.rounding;
+        if !symmetric {
+            let solver = self
+                .unsymmetric
+                .get_or_insert_with(|| BiCgStab::new(b.len()));
+            let done = solver.solve(matrix, held, b, x, tolerance, MOST_ITERATIONS);
+            self.iterations += done.iterations;
+            let name = "stabilised bi-conjugate gradients";
+            return if done.converged {
+                Ok(())
+            } else {
+                Err(gave_up(name, done, scale, moment))
+            };
+        }
         let iterate = match self.kind {
             SolverKind::Cg => true,
             SolverKind::Direct => false,
@@ -108,20 +129,13 @@ impl<const D: usize> LinearSolver<D> {
             } else {
                 MOST_ITERATIONS
             };
-            let tolerance = self.rel_tol * scale.largest + scale.rounding;
             let done = self.iterative.solve(matrix, held, b, x, tolerance, most);
             self.iterations += done.iterations;
             if done.converged {
                 return Ok(());
             }
             if self.kind == SolverKind::Cg {
-                return Err(SolverError::LinearNotConverged {
-                    solver: "conjugate gradients",
-                    step: moment.step,
-                    time_s: moment.time_s,
-                    residual: done.residual / scale.largest,
-                    iterations: done.iterations,
-                });
+                return Err(gave_up("conjugate gradients", done, scale, moment));
             }
             self.changed_over = Some(done.iterations);
         }
@@ -148,20 +162,35 @@ impl<const D: usize> LinearSolver<D> {
 
     /// What was used and why.
     pub fn describe(&self) -> String {
+        let mean = self.iterations as f64 / self.solves.max(1) as f64;
+        if self.unsymmetric.is_some() {
+            return format!(
+                "stabilised bi-conjugate gradients, Jacobi (unsymmetric; {mean:.1} iterations a solve)"
+            );
+        }
         match (self.kind, self.changed_over) {
             (SolverKind::Direct, _) => "Cholesky, nested dissection (as asked)".to_owned(),
             (_, Some(n)) => format!(
                 "Cholesky, nested dissection (conjugate gradients had not converged after {n} iterations)"
             ),
             (kind, None) => format!(
-                "conjugate gradients, Jacobi ({}{:.1} iterations a solve)",
+                "conjugate gradients, Jacobi ({}{mean:.1} iterations a solve)",
                 if kind == SolverKind::Cg {
                     "as asked, "
                 } else {
                     ""
                 },
-                self.iterations as f64 / self.solves.max(1) as f64
             ),
         }
+    }
+}
+
+fn gave_up(solver: &'static str, done: Iterated, scale: ForceScale, moment: Moment) -> SolverError {
+    SolverError::LinearNotConverged {
+        solver,
+        step: moment.step,
+        time_s: moment.time_s,
+        residual: done.residual / scale.largest,
+        iterations: done.iterations,
     }
 }

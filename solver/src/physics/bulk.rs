@@ -4,7 +4,7 @@
 //! [`Carried`] for points that carry their stress, in small strain when frozen and in finite strain
 //! when they move.
 
-use super::kernel::{Lumped, RegionKernel, Trial};
+use super::kernel::{Lumped, RegionKernel, Stiffness, Trial};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
 use crate::linear::block_matrix::BlockMatrix;
@@ -92,8 +92,8 @@ impl<const D: usize> RegionKernel<D> for Kept<D> {
         Ok(())
     }
 
-    fn is_linear_in_displacement(&self) -> bool {
-        true
+    fn stiffness(&self) -> Stiffness {
+        Stiffness::Linear
     }
 
     fn strain_energy(
@@ -223,8 +223,12 @@ impl<const D: usize> RegionKernel<D> for Carried<D> {
         Ok(())
     }
 
-    fn is_linear_in_displacement(&self) -> bool {
-        false
+    fn stiffness(&self) -> Stiffness {
+        if self.finite {
+            Stiffness::Varying
+        } else {
+            Stiffness::Constant
+        }
     }
 
     fn strain_energy(

@@ -19,6 +19,50 @@ pub struct Lumped<const D: usize> {
     pub mass: Vec<Vector<D>>,
     /// Damping C (kg/s); empty when nothing is damped.
     pub viscous: Vec<Vector<D>>,
+    /// Springs to the ground (N/m); empty when there are none.
+    pub stiffness: Vec<Vector<D>>,
+}
+
+impl<const D: usize> Lumped<D> {
+    /// No mass, for `nodes` nodes.
+    pub fn zeros(nodes: usize) -> Self {
+        Lumped {
+            mass: vec![[0.0; D]; nodes],
+            viscous: Vec::new(),
+            stiffness: Vec::new(),
+        }
+    }
+
+    /// The damping, to add to.
+    pub fn viscous_mut(&mut self) -> &mut [Vector<D>] {
+        self.viscous.resize(self.mass.len(), [0.0; D]);
+        &mut self.viscous
+    }
+
+    /// The springs, to add to.
+    pub fn stiffness_mut(&mut self) -> &mut [Vector<D>] {
+        self.stiffness.resize(self.mass.len(), [0.0; D]);
+        &mut self.stiffness
+    }
+
+    /// Becomes `other`, without giving memory back.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.mass.clone_from(&other.mass);
+        self.viscous.clone_from(&other.viscous);
+        self.stiffness.clone_from(&other.stiffness);
+    }
+}
+
+/// What the tangent of a region depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stiffness {
+    /// On nothing, and the force is the tangent times the total displacement: the model applies the
+    /// assembled matrix instead of visiting the points.
+    Linear,
+    /// On the length of the step alone.
+    Constant,
+    /// On the state.
+    Varying,
 }
 
 /// A trial state of the end of a step.
@@ -58,9 +102,13 @@ pub trait RegionKernel<const D: usize>: Send {
     /// An inverted point.
     fn commit(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError>;
 
-    /// Is the force the tangent times the total displacement? The model then applies the assembled
-    /// matrix instead of visiting the points.
-    fn is_linear_in_displacement(&self) -> bool;
+    /// What the tangent depends on.
+    fn stiffness(&self) -> Stiffness;
+
+    /// Is the tangent symmetric?
+    fn is_symmetric(&self) -> bool {
+        true
+    }
 
     /// Elastic energy of the region (J, per metre of thickness in 2D) with the nodal displacement
     /// `u` where nodes keep it.
@@ -120,11 +168,6 @@ impl<const D: usize> Constraints<D> {
 pub trait NodeTerm<const D: usize>: Send {
     /// Holds unknowns during the step from `times[0]` to `times[1]` (s).
     fn constrain(&self, _times: [f64; 2], _out: &mut Constraints<D>) {}
-
-    /// Does it damp by lumped coefficients?
-    fn damps(&self) -> bool {
-        false
-    }
 
     /// Adds lumped damping, in terms of the nodes' masses.
     fn lump(&self, _out: &mut Lumped<D>) {}

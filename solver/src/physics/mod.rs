@@ -2,8 +2,12 @@
 //!
 //! - [`kernel`]: what a region of points and a term on nodes have to say.
 //! - [`bulk`]: plain solid, kept on nodes or carried by points.
-//! - [`model`]: the semi-discrete system that integrators see.
+//! - [`model`]: the semi-discrete system that integrators see; [`stiffness`] its matrices,
+//!   [`transfer`] the motion between points and nodes, [`balance`] its energy and momentum.
 
+pub mod balance;
 pub mod bulk;
 pub mod kernel;
 pub mod model;
+pub mod stiffness;
+pub mod transfer;

@@ -1,15 +1,16 @@
 //! The semi-discrete system: points, nodes, regions and terms joined.
 
-use super::kernel::{Constraints, Lumped, NodeTerm, RegionKernel, Trial};
+use super::kernel::{Constraints, Lumped, NodeTerm, RegionKernel, Stiffness, Trial};
+use super::stiffness::{Matrices, Surroundings, weighted_square};
+use super::transfer::KeptNodes;
 use crate::basis::Discretisation;
 use crate::error::SolverError;
 use crate::grid::Grid;
-use crate::linear::block_matrix::BlockMatrix;
 use crate::linear::cg::norm;
 use crate::linear::{Equations, LinearSolver, Moment};
-use crate::points::{BLOCK, Points, blocks};
+use crate::points::Points;
 use crate::problem::Transfer;
-use crate::tensor::{Vector, zero};
+use crate::tensor::Vector;
 use crate::time::{ForceScale, Motion, Rates, System};
 use std::ops::Range;
 
@@ -40,6 +41,30 @@ pub struct Nodes<const D: usize> {
     pub increment: Vec<Vector<D>>,
 }
 
+/// The parts that a model is joined from.
+pub struct Parts<const D: usize> {
+    /// Background grid.
+    pub grid: Grid<D>,
+    /// Shape functions.
+    pub disc: Box<dyn Discretisation<D>>,
+    /// Material points: those that carry the motion first, layers at rest last.
+    pub points: Points<D>,
+    /// Regions of points.
+    pub regions: Vec<Region<D>>,
+    /// Terms on nodes.
+    pub terms: Vec<Box<dyn NodeTerm<D>>>,
+    /// The first so many points move; `None`: the body is frozen.
+    pub movable: Option<usize>,
+    /// From here on points rest and their nodes keep the motion.
+    pub first_kept: usize,
+    /// Points that take their displacement from the nodes in every step (K25 (18)).
+    pub replaced_displacement: Option<Range<usize>>,
+    /// Transfer between points and nodes.
+    pub transfer: Transfer,
+    /// Linear solver.
+    pub solver: LinearSolver<D>,
+}
+
 /// Points, nodes, regions and terms.
 pub struct Model<const D: usize> {
     /// Background grid.
@@ -60,16 +85,18 @@ pub struct Model<const D: usize> {
     pub transfer: Transfer,
     /// Linear solver.
     pub solver: LinearSolver<D>,
+    pub(super) movable: usize,
+    pub(super) replaced_displacement: Option<Range<usize>>,
+    pub(super) kept: KeptNodes<D>,
+    pub(super) matrices: Matrices<D>,
+    pub(super) moment: Moment,
+    pub(super) dt: f64,
+    /// What points at rest contribute, once and for all.
+    resting: Lumped<D>,
+    first_kept: usize,
     constraints: Constraints<D>,
-    /// Stiffness of the regions whose force is linear in the displacement.
-    linear_stiffness: Option<BlockMatrix<D>>,
-    effective: BlockMatrix<D>,
-    /// Rates of the effective matrix, when it stands.
-    effective_rates: Option<Rates>,
     work: Vec<Vector<D>>,
     times: [f64; 2],
-    moment: Moment,
-    dt: f64,
 }
 
 impl<const D: usize> Model<D> {
@@ -77,20 +104,17 @@ impl<const D: usize> Model<D> {
     ///
     /// # Errors
     /// A point outside the grid.
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "the parts of a model, joined in one place"
-    )]
-    pub fn new(
-        grid: Grid<D>,
-        mut disc: Box<dyn Discretisation<D>>,
-        points: Points<D>,
-        mut regions: Vec<Region<D>>,
-        mut terms: Vec<Box<dyn NodeTerm<D>>>,
-        moving: bool,
-        transfer: Transfer,
-        solver: LinearSolver<D>,
-    ) -> Result<Self, SolverError> {
+    pub fn new(parts: Parts<D>) -> Result<Self, SolverError> {
+        let Parts {
+            grid,
+            mut disc,
+            points,
+            mut regions,
+            mut terms,
+            transfer,
+            solver,
+            ..
+        } = parts;
         let n = grid.node_count();
         let vectors = || vec![[0.0; D]; n];
         let moment = Moment {
@@ -103,36 +127,39 @@ impl<const D: usize> Model<D> {
             term.attach(disc.as_ref())
                 .map_err(|x| left_grid(&x, moment))?;
         }
-        let damps = terms.iter().any(|t| t.damps());
-        let lumped = Lumped {
-            mass: vectors(),
-            viscous: if damps { vectors() } else { Vec::new() },
+        let kept = match points.motion {
+            Some(_) => KeptNodes::touched(disc.as_ref(), &points, parts.first_kept),
+            None => KeptNodes::default(),
         };
-        let nodes = Nodes {
-            lumped,
-            active: vec![false; n],
-            u: vectors(),
-            v: vectors(),
-            a: vectors(),
-            increment: vectors(),
-        };
-        let linear_stiffness = assemble_linear(&mut regions, disc.as_ref(), &points, &nodes.u);
-        let effective = BlockMatrix::zeros(disc.pattern());
+        let mut resting = Lumped::zeros(n);
+        for region in regions.iter().filter(|r| r.range.start >= parts.first_kept) {
+            region.kernel.lump(disc.as_ref(), &points, &mut resting);
+        }
         let mut model = Model {
+            matrices: Matrices::new(&mut regions, disc.as_ref(), &points),
+            nodes: Nodes {
+                lumped: Lumped::zeros(n),
+                active: vec![false; n],
+                u: vectors(),
+                v: vectors(),
+                a: vectors(),
+                increment: vectors(),
+            },
             constraints: Constraints::none(n),
             work: vectors(),
+            moving: parts.movable.is_some(),
+            movable: parts.movable.unwrap_or(0),
+            replaced_displacement: parts.replaced_displacement,
+            kept,
+            resting,
+            first_kept: parts.first_kept,
             grid,
             disc,
             points,
             regions,
             terms,
-            nodes,
-            moving,
             transfer,
             solver,
-            linear_stiffness,
-            effective,
-            effective_rates: None,
             times: [0.0; 2],
             moment,
             dt: 0.0,
@@ -144,9 +171,12 @@ impl<const D: usize> Model<D> {
     /// Gathers masses and damping of the nodes.
     fn lump(&mut self) {
         let lumped = &mut self.nodes.lumped;
-        lumped.mass.fill([0.0; D]);
-        lumped.viscous.fill([0.0; D]);
-        for region in &self.regions {
+        lumped.copy_from(&self.resting);
+        for region in self
+            .regions
+            .iter()
+            .filter(|r| r.range.start < self.first_kept)
+        {
             region.kernel.lump(self.disc.as_ref(), &self.points, lumped);
         }
         for term in &self.terms {
@@ -154,96 +184,6 @@ impl<const D: usize> Model<D> {
         }
         for (active, mass) in self.nodes.active.iter_mut().zip(&lumped.mass) {
             *active = mass.iter().all(|m| *m > 0.0);
-        }
-    }
-
-    /// Points to nodes: momentum and mass-weighted acceleration over mass (K25 (15); the affine
-    /// transfer adds the points' gradients).
-    fn transfer_to_nodes(&mut self) {
-        let Some(motion) = &self.points.motion else {
-            return;
-        };
-        let (points, nodes, disc) = (&self.points, &mut self.nodes, &self.disc);
-        nodes.v.fill([0.0; D]);
-        nodes.a.fill([0.0; D]);
-        for block in blocks(0..points.len()) {
-            let mass = &points.mass[block.clone()];
-            match &motion.gradients {
-                Some(l) => {
-                    let x = &points.place[block.clone()];
-                    for (f, l, out) in [
-                        (&motion.v, &l.v, &mut nodes.v),
-                        (&motion.a, &l.a, &mut nodes.a),
-                    ] {
-                        disc.scatter_affine(
-                            block.clone(),
-                            mass,
-                            &f[block.clone()],
-                            &l[block.clone()],
-                            x,
-                            out,
-                        );
-                    }
-                }
-                None => {
-                    disc.scatter_vector(
-                        block.clone(),
-                        mass,
-                        &motion.v[block.clone()],
-                        &mut nodes.v,
-                    );
-                    disc.scatter_vector(
-                        block.clone(),
-                        mass,
-                        &motion.a[block.clone()],
-                        &mut nodes.a,
-                    );
-                }
-            }
-        }
-        for ((v, a), m) in nodes.v.iter_mut().zip(&mut nodes.a).zip(&nodes.lumped.mass) {
-            for i in 0..D {
-                if m[i] > 0.0 {
-                    v[i] /= m[i];
-                    a[i] /= m[i];
-                }
-            }
-        }
-    }
-
-    /// Nodes to points: `a' = sum N a'`, `v += dt/2 (a + a')` (K25 (19), (20)), and the same for the
-    /// gradients of the affine transfer; `pic` takes the nodes' velocity instead.
-    fn transfer_to_points(&mut self) {
-        let Some(motion) = &mut self.points.motion else {
-            return;
-        };
-        let (nodes, disc) = (&self.nodes, &self.disc);
-        let half = 0.5 * self.dt;
-        let (mut vector, mut matrix) = ([[0.0; D]; BLOCK], [zero::<D>(); BLOCK]);
-        let count = motion.v.len();
-        for block in blocks(0..count) {
-            let n = block.len();
-            disc.gather(block.clone(), &nodes.a, &mut vector[..n]);
-            let (v, a) = (&mut motion.v[block.clone()], &mut motion.a[block.clone()]);
-            advance_rate(
-                v.as_flattened_mut(),
-                a.as_flattened_mut(),
-                vector[..n].as_flattened(),
-                half,
-            );
-            if self.transfer == Transfer::Pic {
-                disc.gather(block.clone(), &nodes.v, v);
-            }
-            if let Some(l) = &mut motion.gradients {
-                disc.gradient(block.clone(), &nodes.a, &mut matrix[..n]);
-                let (v, a) = (&mut l.v[block.clone()], &mut l.a[block]);
-                advance_rate(
-                    v.as_flattened_mut().as_flattened_mut(),
-                    a.as_flattened_mut().as_flattened_mut(),
-                    matrix[..n].as_flattened().as_flattened(),
-                    half,
-                );
-            }
         }
     }
 
@@ -300,69 +240,6 @@ impl<const D: usize> Model<D> {
         }
     }
 
-    /// Elastic energy of the target alone or of everything (J, per metre of thickness in 2D).
-    pub fn strain_energy(&self, target_only: bool) -> f64 {
-        let regions = self.regions.iter().filter(|r| r.in_target || !target_only);
-        regions
-            .map(|r| {
-                r.kernel
-                    .strain_energy(self.disc.as_ref(), &self.points, &self.nodes.u)
-            })
-            .sum()
-    }
-
-    /// Kinetic energy (J) of the target alone or of everything.
-    ///
-    /// Where nodes keep the motion a point's share is that of its lumped mass.
-    pub fn kinetic_energy(&self, target_only: bool) -> f64 {
-        let mut energy = 0.0;
-        let mut squares = [[0.0; D]; BLOCK];
-        let squared: Vec<Vector<D>> = match self.points.motion {
-            Some(_) => Vec::new(),
-            None => self.nodes.v.iter().map(|v| v.map(|x| x * x)).collect(),
-        };
-        for region in self.regions.iter().filter(|r| r.in_target || !target_only) {
-            for block in blocks(region.range.clone()) {
-                let squares = &mut squares[..block.len()];
-                match &self.points.motion {
-                    Some(motion) => {
-                        for (s, v) in squares.iter_mut().zip(&motion.v[block.clone()]) {
-                            *s = v.map(|x| x * x);
-                        }
-                    }
-                    None => self.disc.gather(block.clone(), &squared, squares),
-                }
-                for (s, m) in squares.iter().zip(&self.points.mass[block]) {
-                    energy += 0.5 * m * s.iter().sum::<f64>();
-                }
-            }
-        }
-        energy
-    }
-
-    /// Linear momentum of everything (kg m/s).
-    pub fn momentum(&self) -> Vector<D> {
-        let mut sum = [0.0; D];
-        let mut add = |m: &Vector<D>, v: &Vector<D>| {
-            for i in 0..D {
-                sum[i] += m[i] * v[i];
-            }
-        };
-        match &self.points.motion {
-            Some(motion) => {
-                for (m, v) in self.points.mass.iter().zip(&motion.v) {
-                    add(&[*m; D], v);
-                }
-            }
-            None => {
-                for (m, v) in self.nodes.lumped.mass.iter().zip(&self.nodes.v) {
-                    add(m, v);
-                }
-            }
-        }
-        sum
-    }
-
     /// Unknowns that are not held.
     pub fn unknowns(&self) -> usize {
         self.constraints
@@ -390,7 +267,7 @@ impl<const D: usize> Model<D> {
         increment: &[Vector<D>],
         out: &mut [Vector<D>],
     ) -> Result<(), SolverError> {
-        match &self.linear_stiffness {
+        match self.matrices.linear() {
             Some(stiffness) => {
                 for ((w, u), d) in self.work.iter_mut().zip(&self.nodes.u).zip(increment) {
                     *w = std::array::from_fn(|i| u[i] + d[i]);
@@ -404,7 +281,7 @@ impl<const D: usize> Model<D> {
         let mut result = Ok(());
         for region in regions
             .iter_mut()
-            .filter(|r| !r.kernel.is_linear_in_displacement())
+            .filter(|r| r.kernel.stiffness() != Stiffness::Linear)
         {
             result = result.and_then(|()| region.kernel.force(&trial, out));
         }
@@ -412,73 +289,24 @@ impl<const D: usize> Model<D> {
         result
     }
 
-    /// The effective matrix `rates.mass M + rates.viscous C + K` at the trial increment.
+    /// The effective matrix at the trial increment.
     fn assemble(&mut self, rates: Rates, increment: &[Vector<D>]) {
-        let mut matrix = BlockMatrix {
-            scratch: Vec::new(),
-            ..self.take_effective()
+        let trial = Trial {
+            disc: self.disc.as_ref(),
+            points: &self.points,
+            start: &self.nodes.u,
+            increment,
+            dt: self.dt,
+            moment: self.moment,
         };
-        match &self.linear_stiffness {
-            Some(stiffness) => matrix.blocks.copy_from_slice(&stiffness.blocks),
-            None => matrix.clear(),
-        }
-        let mut regions = std::mem::take(&mut self.regions);
-        let trial = self.trial(increment);
-        for region in regions
-            .iter_mut()
-            .filter(|r| !r.kernel.is_linear_in_displacement())
-        {
-            region.kernel.tangent(&trial, &mut matrix);
-        }
-        self.regions = regions;
-        matrix.add_diagonal(rates.mass, &self.nodes.lumped.mass);
-        if !self.nodes.lumped.viscous.is_empty() {
-            matrix.add_diagonal(rates.viscous, &self.nodes.lumped.viscous);
-        }
-        for term in &self.terms {
-            term.tangent(rates.viscous, &self.nodes.active, &mut matrix);
-        }
-        self.effective = matrix;
-        self.effective_rates = Some(rates);
+        let around = Surroundings {
+            lumped: &self.nodes.lumped,
+            terms: &self.terms,
+            active: &self.nodes.active,
+        };
+        self.matrices
+            .assemble(rates, &mut self.regions, &trial, &around);
         self.solver.invalidate();
-    }
-
-    fn take_effective(&mut self) -> BlockMatrix<D> {
-        let pattern = self.effective.pattern.clone();
-        let empty = BlockMatrix {
-            pattern,
-            blocks: Vec::new(),
-            scratch: Vec::new(),
-        };
-        std::mem::replace(&mut self.effective, empty)
-    }
-
-    /// Moves points and what is attached to the material; finds the points' nodes anew.
-    fn move_points(&mut self) -> Result<(), SolverError> {
-        let mut step = [[0.0; D]; BLOCK];
-        for block in blocks(0..self.points.len()) {
-            let step = &mut step[..block.len()];
-            self.disc.gather(block.clone(), &self.nodes.increment, step);
-            for (x, s) in self.points.place[block].iter_mut().zip(step) {
-                for i in 0..D {
-                    x[i] += s[i];
-                }
-            }
-        }
-        for term in &mut self.terms {
-            term.advance(
-                self.disc.as_ref(),
-                &self.nodes.increment,
-                &self.nodes.active,
-            )
-            .map_err(|x| left_grid(&x, self.moment))?;
-        }
-        let places = &self.points.place;
-        self.disc
-            .place(places)
-            .map_err(|p| left_grid(&places[p], self.moment))?;
-        self.effective_rates = None;
-        Ok(())
     }
 
     fn check_finite(&self, values: &[Vector<D>], field: &'static str) -> Result<(), SolverError> {
@@ -550,29 +378,17 @@ impl<const D: usize> System<D> for Model<D> {
     ) -> Result<ForceScale, SolverError> {
         self.internal_force(trial.increment, out)?;
         let mut scale = norm(out);
-        let (mut inertia, mut large): (f64, f64) = (0.0, 0.0);
+        let lumped = &self.nodes.lumped;
+        scale = scale.max(weighted_square(&lumped.mass, trial.a).sqrt());
         let rate = 4.0 / (self.dt * self.dt);
-        for (((f, m), a), d) in out
-            .iter_mut()
-            .zip(&self.nodes.lumped.mass)
-            .zip(trial.a)
-            .zip(trial.increment)
-        {
-            for i in 0..D {
-                let force = m[i] * a[i];
-                inertia += force * force;
-                large += (m[i] * rate * d[i]).powi(2);
-                f[i] = -f[i] - force;
-            }
+        let large = rate * weighted_square(&lumped.mass, trial.increment).sqrt();
+        for f in out.as_flattened_mut() {
+            *f = -*f;
         }
-        scale = scale.max(inertia.sqrt());
-        if !self.nodes.lumped.viscous.is_empty() {
-            for ((f, c), v) in out.iter_mut().zip(&self.nodes.lumped.viscous).zip(trial.v) {
-                for i in 0..D {
-                    f[i] -= c[i] * v[i];
-                }
-            }
-        }
+        subtract_product(out, &lumped.mass, trial.a);
+        subtract_product(out, &lumped.viscous, trial.v);
+        subtract_product(out, &lumped.stiffness, &self.nodes.u);
+        subtract_product(out, &lumped.stiffness, trial.increment);
         for term in &self.terms {
             term.force(self.times[1], trial.v, &self.nodes.active, out);
         }
@@ -586,7 +402,7 @@ impl<const D: usize> System<D> for Model<D> {
         self.check_finite(out, "the balance of forces")?;
         Ok(ForceScale {
             largest: scale.max(norm(out)),
-            rounding: 8.0 * f64::EPSILON * large.sqrt(),
+            rounding: 8.0 * f64::EPSILON * large,
         })
     }
 
@@ -599,12 +415,13 @@ impl<const D: usize> System<D> for Model<D> {
         correction: &mut [Vector<D>],
     ) -> Result<(), SolverError> {
         // a moving model's tangent changes with every trial, a frozen one's only with the rates
-        if self.moving || self.effective_rates != Some(rates) {
+        if self.moving || !self.matrices.stands_for(rates) {
             self.assemble(rates, increment);
         }
         let disc = &self.disc;
         let equations = Equations {
-            matrix: &self.effective,
+            matrix: self.matrices.effective(),
+            symmetric: self.regions.iter().all(|r| r.kernel.is_symmetric()),
             held: &self.constraints.held,
             b: right,
             scale,
@@ -652,45 +469,21 @@ impl<const D: usize> System<D> for Model<D> {
     }
 }
 
-/// `rate += dt/2 (a + a')`, then `a = a'`.
-fn advance_rate(rate: &mut [f64], a: &mut [f64], next: &[f64], half_step: f64) {
-    for ((v, a), n) in rate.iter_mut().zip(a).zip(next) {
-        *v += half_step * (*a + n);
-        *a = *n;
+/// `out -= coefficients * values`, entry by entry; nothing when there are no coefficients.
+fn subtract_product<const D: usize>(
+    out: &mut [Vector<D>],
+    coefficients: &[Vector<D>],
+    values: &[Vector<D>],
+) {
+    for ((f, c), x) in out.iter_mut().zip(coefficients).zip(values) {
+        for i in 0..D {
+            f[i] -= c[i] * x[i];
+        }
     }
 }
 
-fn assemble_linear<const D: usize>(
-    regions: &mut [Region<D>],
-    disc: &dyn Discretisation<D>,
-    points: &Points<D>,
-    rest: &[Vector<D>],
-) -> Option<BlockMatrix<D>> {
-    let moment = Moment {
-        step: 0,
-        time_s: 0.0,
-    };
-    let trial = Trial {
-        disc,
-        points,
-        start: rest,
-        increment: rest,
-        dt: 0.0,
-        moment,
-    };
-    let mut linear = regions
-        .iter_mut()
-        .filter(|r| r.kernel.is_linear_in_displacement())
-        .peekable();
-    linear.peek()?;
-    let mut matrix = BlockMatrix::zeros(disc.pattern());
-    for region in linear {
-        region.kernel.tangent(&trial, &mut matrix);
-    }
-    Some(matrix)
-}
-
-fn left_grid<const D: usize>(place: &Vector<D>, moment: Moment) -> SolverError {
+/// The error of a place outside the grid.
+pub(super) fn left_grid<const D: usize>(place: &Vector<D>, moment: Moment) -> SolverError {
     SolverError::LeftGrid {
         step: moment.step,
         time_s: moment.time_s,

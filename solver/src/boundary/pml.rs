@@ -1,0 +1,311 @@
+//! The true perfectly matched layer: complex stretch `s_j = 1 + beta_j / W`, symmetric and unsplit
+//! (Basu & Chopra 2004; Kucukcoban & Kallivokas 2013), W discretised by the same bilinear map as the
+//! motion, so that only the mesh reflects.
+//!
+//! ```text
+//! M = rho,  C = rho (b_1 + b_2),  Kd = rho b_1 b_2                                        (lumped)
+//! beta_j = b_0 (d/L)^2,     b_0 = 3 c_p ln(1/R) / (2 L)
+//! s2/s1 = 1 + r_1/(W + p_1),   p_1 = b_1,   r_1 = b_2 - b_1       (2 the other way round)
+//! dphi_kl/dt + p_l phi_kl = g_kl,          g_kl = u_k,l
+//! phi' = A_l phi + Q_l (g + g'),  A_l = (1 - p_l dt/2)/(1 + p_l dt/2),  Q_l = (dt/2)/(1 + p_l dt/2)
+//! P_ij = sum_k C_ijkj (g_kj + r_j phi_kj) + sum_{l /= j} sum_k C_ijkl g_kl
+//! ```
+//!
+//! The points of the layer rest and its nodes keep their motion; the outer edge is fixed.
+
+use super::layer::{by_axis, relative_depth};
+use super::params::{MethodInfo, Param, ParamKind, SideMethod};
+use super::{Assigned, Context, End, LayerPoints, Layout, Parts, walls};
+use crate::basis::Discretisation;
+use crate::error::SolverError;
+use crate::linear::block_matrix::BlockMatrix;
+use crate::material::MaterialBlock;
+use crate::material::linear_elastic::LinearElastic;
+use crate::physics::kernel::{Lumped, RegionKernel, Stiffness, Trial};
+use crate::physics::stiffness::scatter_moduli;
+use crate::points::{BLOCK, Points, blocks};
+use crate::problem::{Problem, Scheme, Side, Transfer};
+use crate::tensor::{Matrix, Tensor4, Vector, contract, zero};
+use std::ops::Range;
+
+/// The method's entry.
+pub static METHOD: MethodInfo = MethodInfo {
+    name: "pml",
+    summary: "true perfectly matched layer: complex stretch with memory, outer edge fixed",
+    params: &[
+        Param {
+            name: "thickness_m",
+            doc: "thickness L; by default 10 cells",
+            kind: ParamKind::Number { unit: "m", default: None, min: 1e-9, max: 1e9 },
+        },
+        Param {
+            name: "reflection",
+            doc: "reflection R aimed at head-on; by default 1e-3, 1e-4, 1e-6, 1e-8 at 5, 10, 20, 50 cells",
+            kind: ParamKind::Number { unit: "1", default: None, min: 1e-300, max: 0.999 },
+        },
+        Param {
+            name: "with_flip",
+            doc: "whether to run where the transfer makes the layer unstable (flip), to study it",
+            kind: ParamKind::Choice(&["refuse", "force"]),
+        },
+    ],
+};
+
+const DEFAULT_CELLS: f64 = 10.0;
+
+pub(crate) fn layout<const D: usize>(
+    problem: &Problem<D>,
+    side: Side,
+    method: &SideMethod,
+) -> Result<Layout, SolverError> {
+    let refuse = |reason: &str| {
+        let field = format!("boundary.{}.method", side.name());
+        Err(SolverError::Setup { field, reason: reason.to_owned() })
+    };
+    if D != 2 {
+        return refuse("the implicit perfectly matched layer is two-dimensional");
+    }
+    if problem.scheme == Scheme::QuasiStatic {
+        return refuse("a perfectly matched layer absorbs waves; use fixed or roller with quasi-static");
+    }
+    let forced = method.choice(&METHOD, "with_flip") == "force";
+    if matches!(problem.transfer, Transfer::Flip) && !forced {
+        return refuse(
+            "unstable with points.transfer = \"flip\", whose motion is filtered and the layer's damping is not; use \"affine\", or pml.with_flip = \"force\" to see it grow",
+        );
+    }
+    let outside =
+        method.given_number("thickness_m").unwrap_or(DEFAULT_CELLS * problem.cell_size);
+    Ok(Layout { outside, inside: 0.0, end: End::Fixed, layer: Some(LayerPoints::Kept) })
+}
+
+/// Reflection aimed at for a layer of so many cells: thin layers want a large one.
+fn default_reflection(cells: f64) -> f64 {
+    const TABLE: [(f64, f64); 4] = [(5.0, -3.0), (10.0, -4.0), (20.0, -6.0), (50.0, -8.0)];
+    let n = cells.clamp(TABLE[0].0, TABLE[3].0);
+    let upper = TABLE.iter().position(|(c, _)| *c >= n).unwrap_or(3).max(1);
+    let ((c0, r0), (c1, r1)) = (TABLE[upper - 1], TABLE[upper]);
+    10.0_f64.powf(r0 + (r1 - r0) * (n / c0).ln() / (c1 / c0).ln())
+}
+
+pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
+    let speed = context.material.p_speed();
+    let strength = |a: &Assigned| {
+        let thickness = a.layout.outside;
+        let cells = thickness / context.grid.h[a.side.axis];
+        let r = a.method.given_number("reflection").unwrap_or(default_reflection(cells));
+        1.5 * speed * (1.0 / r).ln() / thickness
+    };
+    let places = &context.points.place[context.layer.clone()];
+    let beta = places.iter().map(|x| {
+        let (depth, strength) = (relative_depth(context, x), by_axis(context, x, strength));
+        std::array::from_fn(|a| strength[a] * depth[a] * depth[a])
+    });
+    let n = places.len();
+    let kernel = Pml {
+        range: context.layer.clone(),
+        material: LinearElastic::new(&context.material),
+        moduli: LinearElastic::new(&context.material).small_moduli(),
+        beta: beta.collect(),
+        gradient: vec![zero(); n],
+        memory: vec![zero(); n],
+    };
+    Ok(Parts { kernel: Some(Box::new(kernel)), ..Parts::of_terms(walls(context)) })
+}
+
+/// The layer's points.
+struct Pml<const D: usize> {
+    range: Range<usize>,
+    material: LinearElastic,
+    moduli: Tensor4<D>,
+    /// Damping beta_j of each point (1/s).
+    beta: Vec<Vector<D>>,
+    /// g, the displacement gradient of each point.
+    gradient: Vec<Matrix<D>>,
+    /// phi, its low-passed integral (s).
+    memory: Vec<Matrix<D>>,
+}
+
+/// Coefficients of a point for a step.
+struct Coefficients<const D: usize> {
+    /// r_l (1/s).
+    r: Vector<D>,
+    /// A_l.
+    keep: Vector<D>,
+    /// Q_l (s).
+    gain: Vector<D>,
+}
+
+impl<const D: usize> Coefficients<D> {
+    #[inline]
+    fn new(beta: &Vector<D>, dt: f64) -> Self {
+        let total: f64 = beta.iter().sum();
+        let half = 0.5 * dt;
+        Coefficients {
+            // the other axis minus this one, in two dimensions
+            r: beta.map(|b| total - 2.0 * b),
+            keep: beta.map(|p| (1.0 - p * half) / (1.0 + p * half)),
+            gain: beta.map(|p| half / (1.0 + p * half)),
+        }
+    }
+
+    /// phi' from phi, g and g'.
+    #[inline]
+    fn advance(&self, phi: &Matrix<D>, g: &Matrix<D>, next: &Matrix<D>) -> Matrix<D> {
+        let mut out = zero::<D>();
+        for k in 0..D {
+            for l in 0..D {
+                out[k][l] = self.keep[l] * phi[k][l] + self.gain[l] * (g[k][l] + next[k][l]);
+            }
+        }
+        out
+    }
+}
+
+impl<const D: usize> Pml<D> {
+    /// g' of a block at the trial increment.
+    fn next_gradient(&self, trial: &Trial<'_, D>, block: &Range<usize>, out: &mut [Matrix<D>]) {
+        trial.disc.gradient(block.clone(), trial.increment, out);
+        let start = block.start - self.range.start;
+        for (o, g) in out.iter_mut().zip(&self.gradient[start..]) {
+            for k in 0..D {
+                for l in 0..D {
+                    o[k][l] += g[k][l];
+                }
+            }
+        }
+    }
+}
+
+/// Adds `sum_q N_q w_q` of a range of points, `w` times the point's mass.
+fn lump_with<const D: usize>(
+    range: &Range<usize>,
+    disc: &dyn Discretisation<D>,
+    points: &Points<D>,
+    factor: impl Fn(usize) -> f64,
+    out: &mut [Vector<D>],
+) {
+    for block in blocks(range.clone()) {
+        let values: Vec<Vector<D>> =
+            block.clone().map(|p| [factor(p - range.start); D]).collect();
+        disc.scatter_vector(block.clone(), &points.mass[block], &values, out);
+    }
+}
+
+impl<const D: usize> RegionKernel<D> for Pml<D> {
+    fn lump(&self, disc: &dyn Discretisation<D>, points: &Points<D>, out: &mut Lumped<D>) {
+        let sum = |q: usize| self.beta[q].iter().sum();
+        let product = |q: usize| self.beta[q].iter().product();
+        lump_with(&self.range, disc, points, |_| 1.0, &mut out.mass);
+        lump_with(&self.range, disc, points, sum, out.viscous_mut());
+        lump_with(&self.range, disc, points, product, out.stiffness_mut());
+    }
+
+    fn force(&mut self, trial: &Trial<'_, D>, out: &mut [Vector<D>]) -> Result<(), SolverError> {
+        let (mut next, mut stress) = ([zero::<D>(); BLOCK], [zero::<D>(); BLOCK]);
+        for block in blocks(self.range.clone()) {
+            let n = block.len();
+            self.next_gradient(trial, &block, &mut next[..n]);
+            for (b, (g, stress)) in next[..n].iter().zip(&mut stress).enumerate() {
+                let q = block.start - self.range.start + b;
+                let c = Coefficients::new(&self.beta[q], trial.dt);
+                let phi = c.advance(&self.memory[q], &self.gradient[q], g);
+                for i in 0..D {
+                    for j in 0..D {
+                        let mut sum = contract(&self.moduli[i][j], g);
+                        for k in 0..D {
+                            sum += self.moduli[i][j][k][j] * c.r[j] * phi[k][j];
+                        }
+                        stress[i][j] = sum;
+                    }
+                }
+            }
+            let volumes = &trial.points.volume[block.clone()];
+            trial.disc.scatter_stress(block, volumes, &stress[..n], out);
+        }
+        Ok(())
+    }
+
+    /// A_ijkl = C_ijkl, and for l = j times 1 + r_j Q_j: symmetric, constant while dt is.
+    fn tangent(&mut self, trial: &Trial<'_, D>, out: &mut BlockMatrix<D>) {
+        let moduli_of = |p: usize| {
+            let c = Coefficients::new(&self.beta[p - self.range.start], trial.dt);
+            let mut a = self.moduli;
+            for i in 0..D {
+                for j in 0..D {
+                    for k in 0..D {
+                        a[i][j][k][j] *= 1.0 + c.r[j] * c.gain[j];
+                    }
+                }
+            }
+            a
+        };
+        scatter_moduli(self.range.clone(), trial, moduli_of, out);
+    }
+
+    fn commit(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError> {
+        let mut next = [zero::<D>(); BLOCK];
+        for block in blocks(self.range.clone()) {
+            let n = block.len();
+            self.next_gradient(trial, &block, &mut next[..n]);
+            for (b, g) in next[..n].iter().enumerate() {
+                let q = block.start - self.range.start + b;
+                let c = Coefficients::new(&self.beta[q], trial.dt);
+                self.memory[q] = c.advance(&self.memory[q], &self.gradient[q], g);
+                self.gradient[q] = *g;
+            }
+        }
+        Ok(())
+    }
+
+    fn stiffness(&self) -> Stiffness {
+        Stiffness::Constant
+    }
+
+    /// Of the gradients alone; what the memory holds is not energy.
+    fn strain_energy(
+        &self,
+        _disc: &dyn Discretisation<D>,
+        points: &Points<D>,
+        _u: &[Vector<D>],
+    ) -> f64 {
+        let volumes = &points.volume[self.range.clone()];
+        let energy = |(g, v): (&Matrix<D>, &f64)| {
+            let mut stress = [zero::<D>()];
+            self.material.small_stress(&[*g], &mut stress);
+            v * self.material.energy_density(&stress[0])
+        };
+        self.gradient.iter().zip(volumes).map(energy).sum()
+    }
+
+    fn bytes_per_point(&self) -> usize {
+        size_of::<Vector<D>>() + 2 * size_of::<Matrix<D>>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn default_reflections_are_those_of_the_table() {
+        for (cells, r) in [(2.0, 1e-3), (5.0, 1e-3), (10.0, 1e-4), (20.0, 1e-6), (50.0, 1e-8)] {
+            assert!((default_reflection(cells) / r - 1.0).abs() < 1e-12, "{cells}");
+        }
+        assert!(default_reflection(15.0) < 1e-4 && default_reflection(15.0) > 1e-6);
+    }
+
+    #[test]
+    fn memory_follows_its_equation() {
+        // a constant gradient from rest: phi = g/p (1 - exp(-p t))
+        let c = Coefficients::<2>::new(&[3.0, 0.0], 1e-3);
+        let g = [[2.0, 1.0], [0.0, 0.0]];
+        let mut phi = zero::<2>();
+        for _ in 0..1000 {
+            phi = c.advance(&phi, &g, &g);
+        }
+        assert!((phi[0][0] - 2.0 / 3.0 * (1.0 - (-3.0_f64).exp())).abs() < 1e-6);
+        // without damping the memory is the plain integral
+        assert!((phi[0][1] - 1.0).abs() < 1e-12);
+    }
+}
