@@ -3,7 +3,9 @@
 use super::Options;
 use crate::error::CaseError;
 use crate::filter::Filter;
+use crate::judge::CERTIFIER;
 use crate::prepare::{Prepared, Target};
+use anechoic_reference::claim::Evidence;
 
 /// Scenes ready to run.
 #[derive(Debug)]
@@ -61,8 +63,16 @@ impl Plan {
         if let Some(filter) = &filter {
             let any = target.prepare(None)?;
             let chosen = filter.methods(&names, &places(&any))?;
-            // Ratios need the standard run.
-            names.retain(|name| chosen.contains(name) || *name == target.info.standard);
+            // Ratios need the standard run, certified claims the extended one.
+            let certified = any.scene.claims().iter().any(|claim| {
+                claim.claim.evidence == Evidence::Certified
+                    && chosen.contains(&claim.claim.method.as_str())
+            });
+            names.retain(|name| {
+                chosen.contains(name)
+                    || *name == target.info.standard
+                    || (certified && *name == CERTIFIER)
+            });
         }
         let mut scenes = Vec::new();
         for name in names {

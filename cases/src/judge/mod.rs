@@ -1,6 +1,9 @@
 //! From runs to rows: every metric that applies, against every reference that the scene gives.
 
 mod arrivals;
+mod certified;
+
+pub use certified::CERTIFIER;
 
 use crate::runner::Run;
 use crate::scene::{Quantity, Reference, Role, Window};
@@ -8,7 +11,8 @@ use anechoic_reference::claim::{Claim, Evidence};
 use anechoic_reports::judge::{Measurement, cost_measurements, judge, measurements};
 use anechoic_reports::norms::{
     NormError, Onset, Score, Trace, Traces, amplitude_ratio, echo_level_db, echo_ratio,
-    energy_left, peak_error, rel_l2, residual, target_energy, with_groups, with_groups_db,
+    energy_left, growth_rate_per_s, peak_error, rel_l2, residual, target_energy, with_groups,
+    with_groups_db,
 };
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::{Record, Status};
@@ -30,11 +34,16 @@ pub fn judge_runs(runs: &[Run]) -> Judged {
     let standard = runs
         .iter()
         .find(|run| run.manifest.method == run.prepared.info.standard && run.complete());
+    let extended = certified::certifier(runs);
     let mut judged = Judged::default();
     for (index, run) in runs.iter().enumerate() {
         let mut numbers = cost_measurements(&run.manifest.method, &run.record.cost);
         let obstacle = match &run.record.status {
-            Status::Complete => measure(run, standard, index == 0, &mut numbers),
+            Status::Complete => {
+                let missing = certified::measure(run, extended, &mut numbers).err();
+                judged.reference_missing = judged.reference_missing.or(missing);
+                measure(run, standard, index == 0, &mut numbers)
+            }
             Status::Cancelled => Err("the run was stopped before its end".to_owned()),
             Status::Failed(error) => Err(format!("the run failed: {error}")),
         };
@@ -94,7 +103,8 @@ fn measure(
         match reference.role {
             Role::Modelled => subject.against_model(numbers),
             Role::NoEcho => {
-                subject.echo(&windows, scene.pulse_amplitude(), numbers);
+                subject.residuals(&windows, scene.pulse_amplitude(), numbers);
+                subject.echo(&windows, numbers);
                 if first {
                     subject.floor(&windows, numbers);
                 }
@@ -102,16 +112,24 @@ fn measure(
         }
     }
     let last = windows.iter().map(|w| w.from_s).fold(0.0, f64::max);
-    let left = target_energy(&run.record.energy)
-        .and_then(|energy| energy_left(&run.record.energy.times, &energy, last));
-    let place = |value| vec![Score::new("target", value)];
-    numbers.extend(measurements(
-        &run.manifest.method,
-        "energy_left",
-        "1",
-        None,
-        left.map(place),
-    ));
+    let times = &run.record.energy.times;
+    let energy = target_energy(&run.record.energy);
+    let energy = energy.as_ref().map_err(NormError::clone);
+    let left = energy.clone().and_then(|e| energy_left(times, e, last));
+    let growth = energy.and_then(|e| Ok(growth_rate_per_s(times, e)?.value));
+    for (metric, unit, value) in [
+        ("energy_left", "1", left),
+        ("growth_rate_per_s", "1/s", growth),
+    ] {
+        let score = value.map(|value| vec![Score::new("target", value)]);
+        numbers.extend(measurements(
+            &run.manifest.method,
+            metric,
+            unit,
+            None,
+            score,
+        ));
+    }
     Ok(())
 }
 
@@ -157,8 +175,8 @@ impl Subject<'_> {
         }
     }
 
-    /// How much echo the method leaves.
-    fn echo(&self, windows: &[Window], amplitude: f64, numbers: &mut Vec<Measurement>) {
+    /// Largest distance to the reference in each window, over the pulse's amplitude.
+    fn residuals(&self, windows: &[Window], amplitude: f64, numbers: &mut Vec<Measurement>) {
         for window in windows {
             let score = self.pair().and_then(|(run, truth)| {
                 let (run, truth) = (cut(run, window)?, cut(truth, window)?);
@@ -170,6 +188,10 @@ impl Subject<'_> {
             }
             numbers.push(number);
         }
+    }
+
+    /// How much echo the method leaves.
+    fn echo(&self, windows: &[Window], numbers: &mut Vec<Measurement>) {
         let level = self
             .pair()
             .and_then(|(run, truth)| with_groups_db(&echo_level_db(run, truth)?));

@@ -27,11 +27,15 @@ pub(crate) fn layout<const D: usize>(
     _side: Side,
     method: &SideMethod,
 ) -> Result<Layout, SolverError> {
-    let outside = method.given_number("thickness_m").unwrap_or_else(|| {
+    Ok(Layout { outside: thickness(problem, method), inside: 0.0, end: End::Fixed, layer: None })
+}
+
+/// Material added (m), before it is rounded up to whole cells.
+pub fn thickness<const D: usize>(problem: &Problem<D>, method: &SideMethod) -> f64 {
+    method.given_number("thickness_m").unwrap_or_else(|| {
         let needed = 0.5 * problem.material.p_speed() * problem.end_time;
         needed + CELLS_AHEAD * problem.cell_size
-    });
-    Ok(Layout { outside, inside: 0.0, end: End::Fixed, layer: None })
+    })
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
