@@ -290,7 +290,7 @@ fn a_methods_parameter_reaches_every_side_that_uses_it() {
         let changed = !scene.scene.boundary().bottom.params.is_empty();
         assert_eq!(
             changed,
-            ["dashpot", "damping-layer"].contains(&scene.method.as_str())
+            ["dashpot", "damping-layer", "pml"].contains(&scene.method.as_str())
         );
     }
     options.methods = vec!["fixed".into()];
