@@ -15,7 +15,12 @@ pub static METHOD: MethodInfo = MethodInfo {
     params: &[Param {
         name: "thickness_m",
         doc: "material added; by default as much as the fastest wave needs not to come back before the end",
-        kind: ParamKind::Number { unit: "m", default: None, min: 1e-9, max: 1e9 },
+        kind: ParamKind::Number {
+            unit: "m",
+            default: None,
+            min: 1e-9,
+            max: 1e9,
+        },
     }],
 };
 
@@ -27,7 +32,12 @@ pub(crate) fn layout<const D: usize>(
     _side: Side,
     method: &SideMethod,
 ) -> Result<Layout, SolverError> {
-    Ok(Layout { outside: thickness(problem, method), inside: 0.0, end: End::Fixed, layer: None })
+    Ok(Layout {
+        outside: thickness(problem, method),
+        inside: 0.0,
+        end: End::Fixed,
+        layer: None,
+    })
 }
 
 /// Material added (m), before it is rounded up to whole cells.
