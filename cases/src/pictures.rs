@@ -1,7 +1,9 @@
 //! Pictures of a study. Only complete runs are drawn; the report says which are not.
 
 use crate::judge::{traces, traces_of};
+use crate::judge::references::References;
 use crate::runner::Run;
+use crate::study::Kind;
 use crate::scene::{Quantity, Reference, Role};
 use anechoic_reports::norms::{NormError, Traces, echo_series, target_energy};
 use anechoic_reports::plot::{
@@ -41,15 +43,18 @@ pub enum PictureError {
 ///
 /// # Errors
 /// [`PictureError`] when a record is out of shape.
-pub fn draw(runs: &[Run], ranking: &Ranking) -> Result<Vec<Picture>, PictureError> {
+pub fn draw(
+    runs: &[Run],
+    kind: Kind,
+    ranking: &Ranking,
+    references: &References,
+) -> Result<Vec<Picture>, PictureError> {
     let runs: Vec<&Run> = runs.iter().filter(|run| run.complete()).collect();
     let Some(first) = runs.first() else {
         return Ok(Vec::new());
     };
-    let reference = first
-        .prepared
-        .scene
-        .references(&first.record.receivers.times)
+    let reference = references
+        .of(first)
         .ok()
         .and_then(|all| all.into_iter().find(|r| r.role == Role::NoEcho));
     let mut pictures = vec![series(&runs, reference.as_ref())?];

@@ -1,7 +1,7 @@
 //! What is printed.
 
 use super::args::Format;
-use crate::commands::{Finished, Plan};
+use crate::commands::{Finished, Plan, Recomputed};
 use crate::error::CaseError;
 use crate::field::short;
 use crate::prepare::Prepared;
@@ -202,6 +202,41 @@ pub fn plan(plan: &Plan, out: &Path, format: Format) -> Result<String, CaseError
         );
     }
     Ok(text)
+}
+
+/// What a reference is, what it cost, and how it compares with the one before.
+pub fn recomputed(recomputed: &Recomputed) -> String {
+    let about = &recomputed.reference.about;
+    let buffers: Vec<String> = about
+        .buffer_m
+        .iter()
+        .map(|(side, m)| format!("{side} {m} m"))
+        .collect();
+    let mut text = format!(
+        "certified reference {}-{}\n  serves     until {:.3} s, buffer {}\n  cost       {} unknowns, {} steps, {:.1} s, {}\n",
+        about.case,
+        about.hash,
+        about.serves_until_s,
+        buffers.join(", "),
+        format::count(about.cost.unknowns),
+        format::count(about.cost.steps),
+        about.cost.wall_s,
+        format::bytes(about.cost.peak_bytes as f64),
+    );
+    if let Some(floor) = &about.floor_m {
+        let largest = floor.values().copied().fold(0.0, f64::max);
+        let _ = writeln!(text, "  floor      {largest:.1e} m at most");
+    }
+    match recomputed.change {
+        Some(change) => {
+            let _ = writeln!(text, "  change     {change:.1e} of the peaks, from the one stored before");
+        }
+        None => text.push_str("  change     none was stored before\n"),
+    }
+    for file in &recomputed.files {
+        let _ = writeln!(text, "  {}", file.display());
+    }
+    text
 }
 
 /// Verdicts, ranking, measurements, and where the report lies; or the rows as JSON.

@@ -4,6 +4,9 @@ use super::Options;
 use crate::error::CaseError;
 use crate::filter::Filter;
 use crate::prepare::{Prepared, Target};
+use crate::scene::SceneInfo;
+use crate::scenes::SCENES;
+use anechoic_reports::norms::{group_of, group_worst};
 
 /// Scenes ready to run.
 #[derive(Debug)]
@@ -42,7 +45,10 @@ impl Plan {
     pub(super) fn compare(options: &Options) -> Result<Self, CaseError> {
         let target = Target::find(&options.request)?;
         let mut names: Vec<&str> = match options.methods.as_slice() {
-            [] => target.info.methods.iter().map(|m| m.name).collect(),
+            [] => {
+                let usual = target.info.methods.iter().filter(|m| !m.on_request);
+                usual.map(|m| m.name).collect()
+            }
             some => some.iter().map(String::as_str).collect(),
         };
         let mut described = if target.names_sides() {
@@ -76,10 +82,41 @@ impl Plan {
         Ok(Plan { scenes, filter })
     }
 
+    /// The published parts of a method, one by one, with the standard runs that they need.
+    pub(super) fn ablation(options: &Options) -> Result<Self, CaseError> {
+        let target = Target::find(&options.request)?;
+        let variants = target.info.ablation;
+        if variants.is_empty() {
+            return Err(CaseError::Usage(format!(
+                "{} has no method that is taken apart; cases that have: {}",
+                target.info.name,
+                names_of(SCENES.iter().filter(|scene| !scene.ablation.is_empty()))
+            )));
+        }
+        let mut names: Vec<&str> = variants.iter().map(|variant| variant.name).collect();
+        let filter = options.filter.clone().map(Filter);
+        if let Some(filter) = &filter {
+            let chosen = filter.methods(&names, &places(&target.prepare(None)?))?;
+            let standard = format!("{}/", target.info.standard);
+            names.retain(|name| chosen.contains(name) || name.starts_with(&standard));
+        }
+        let scenes = names
+            .into_iter()
+            .map(|name| target.prepare(Some(name)))
+            .collect::<Result<Vec<_>, _>>()?;
+        refuse_unused(&unused_everywhere(&scenes))?;
+        Ok(Plan { scenes, filter })
+    }
+
     /// The case.
     pub fn case(&self) -> &'static str {
         self.scenes.first().map_or("", |scene| scene.info.name)
     }
+}
+
+fn names_of<'a>(scenes: impl Iterator<Item = &'a &'static SceneInfo>) -> String {
+    let names: Vec<&str> = scenes.map(|scene| scene.name).collect();
+    names.join(", ")
 }
 
 /// Assignments that reached no side in any scene.
@@ -109,7 +146,8 @@ pub(super) fn refuse_unused(unused: &[String]) -> Result<(), CaseError> {
 fn places(scene: &Prepared) -> Vec<String> {
     let mut places = vec!["run".to_owned(), "target".to_owned()];
     for window in scene.scene.windows() {
-        places.push(window.place());
+        let group = group_of(&window.receiver);
+        places.extend([group.to_owned(), group_worst(group), window.place()]);
     }
     places
 }
