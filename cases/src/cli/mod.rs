@@ -82,6 +82,9 @@ fn solve_or_show(
     plan: &Plan,
     command: impl FnOnce() -> Result<Finished, CaseError>,
 ) -> Result<u8, CaseError> {
+    for (method, why) in &plan.left_out {
+        eprintln!("{method} is left out: {why}");
+    }
     if work.dry_run {
         print::out(&print::plan(plan, &work.out, work.format)?);
         return Ok(exit::PASS);

@@ -1,7 +1,7 @@
 //! Which scenes a command solves.
 
 use super::Options;
-use crate::error::CaseError;
+use crate::error::{CaseError, Complaint};
 use crate::filter::Filter;
 use crate::prepare::{Prepared, Target};
 use crate::scene::SceneInfo;
@@ -15,6 +15,8 @@ pub struct Plan {
     pub scenes: Vec<Prepared>,
     /// Which rows are asked for.
     pub filter: Option<Filter>,
+    /// Methods that do not apply to the scene as it stands, and why.
+    pub left_out: Vec<(String, String)>,
 }
 
 impl Plan {
@@ -38,6 +40,7 @@ impl Plan {
         Ok(Plan {
             scenes: vec![scene],
             filter,
+            left_out: Vec::new(),
         })
     }
 
@@ -70,16 +73,30 @@ impl Plan {
             // Ratios need the standard run.
             names.retain(|name| chosen.contains(name) || *name == target.info.standard);
         }
-        let mut scenes = Vec::new();
+        let (mut scenes, mut left_out) = (Vec::new(), Vec::new());
         for name in names {
             let file_says = described_name.as_deref() == Some(name);
-            scenes.push(match described.take_if(|_| file_says) {
-                Some(scene) => scene,
-                None => target.prepare(Some(name))?,
-            });
+            if let Some(scene) = described.take_if(|_| file_says) {
+                scenes.push(scene);
+                continue;
+            }
+            match (target.prepare(Some(name)), refusal(options)) {
+                (Ok(scene), _) => scenes.push(scene),
+                (Err(CaseError::Scene(complaints)), Some(is_refusal))
+                    if complaints.iter().all(is_refusal) =>
+                {
+                    let why = complaints.first().map_or("", |c| c.message.as_str());
+                    left_out.push((name.to_owned(), why.to_owned()));
+                }
+                (Err(error), _) => return Err(error),
+            }
         }
         refuse_unused(&unused_everywhere(&scenes))?;
-        Ok(Plan { scenes, filter })
+        Ok(Plan {
+            scenes,
+            filter,
+            left_out,
+        })
     }
 
     /// The published parts of a method, one by one, with the standard runs that they need.
@@ -105,13 +122,25 @@ impl Plan {
             .map(|name| target.prepare(Some(name)))
             .collect::<Result<Vec<_>, _>>()?;
         refuse_unused(&unused_everywhere(&scenes))?;
-        Ok(Plan { scenes, filter })
+        Ok(Plan {
+            scenes,
+            filter,
+            left_out: Vec::new(),
+        })
     }
 
     /// The case.
     pub fn case(&self) -> &'static str {
         self.scenes.first().map_or("", |scene| scene.info.name)
     }
+}
+
+/// What tells that a method does not apply to a scene, where methods were not named one by one.
+fn refusal(options: &Options) -> Option<fn(&Complaint) -> bool> {
+    let of_method = |complaint: &Complaint| {
+        complaint.field.starts_with("boundary.") && complaint.field.ends_with(".method")
+    };
+    options.methods.is_empty().then_some(of_method)
 }
 
 fn names_of<'a>(scenes: impl Iterator<Item = &'a &'static SceneInfo>) -> String {

@@ -143,8 +143,11 @@ pub(super) const PRESETS: &[Overlay] = &[
     ),
     Overlay::new(
         "paper-transfer",
-        "the paper's own transfer between points and nodes (flip)",
-        "points.transfer = 'flip'",
+        "the paper's own transfer between points and nodes (flip), with its own layer",
+        "points.transfer = 'flip'
+        boundary.left = { method = 'pml-stretched', thickness_m = 1000.0 }
+        boundary.right = { method = 'pml-stretched', thickness_m = 1000.0 }
+        boundary.bottom = { method = 'pml-stretched', thickness_m = 1000.0 }",
     ),
     Overlay::new(
         "counts",
