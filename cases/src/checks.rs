@@ -90,9 +90,7 @@ impl<'a> Checks<'a> {
     pub fn inside(&mut self, field: &str, what: &str, at: f64, body: &Aabb<2>, axis: usize) {
         let (lower, upper) = (body.lower[axis], body.upper[axis]);
         self.require((lower..=upper).contains(&at), field, || {
-            format!(
-                "{what} at {at} m lies outside the mesh; allowed: {lower} <= value <= {upper}"
-            )
+            format!("{what} at {at} m lies outside the mesh; allowed: {lower} <= value <= {upper}")
         });
     }
 

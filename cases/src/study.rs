@@ -1,8 +1,8 @@
 //! A study: runs that are judged and shown together. Everything here is made from records alone, so
 //! that `report` makes the same again without solving.
 
-use crate::error::CaseError;
 use crate::certified::library::Library;
+use crate::error::CaseError;
 use crate::judge::references::References;
 use crate::judge::{PAPER, REFERENCE, judge_runs};
 use crate::pictures::{self, Picture};
@@ -121,7 +121,8 @@ pub fn publish(
         write_file(&folder.join(name), made.as_bytes())?;
     }
     let ranking = rank(&judged.rows);
-    let pictures = pictures::draw(&runs, kind, &ranking, &references).map_err(|e| failed("the pictures", &e))?;
+    let pictures = pictures::draw(&runs, kind, &ranking, &references)
+        .map_err(|e| failed("the pictures", &e))?;
     let figures = pictures
         .iter()
         .map(|picture| save_picture(folder, picture))

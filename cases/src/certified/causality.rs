@@ -27,7 +27,9 @@ pub fn with_buffers(problem: &Problem<2>, factor: f64) -> Problem<2> {
                 };
                 let thickness = factor * needed(problem, side);
                 let h = problem.cell_size;
-                *method = method.clone().with("thickness_m", (thickness / h).ceil() * h);
+                *method = method
+                    .clone()
+                    .with("thickness_m", (thickness / h).ceil() * h);
             }
         }
     }
@@ -73,7 +75,11 @@ fn distance(problem: &Problem<2>, side: Side) -> f64 {
         // A driven side that meets this one at a corner.
         Drive::SideVelocity { .. } => 0.0,
     };
-    problem.drives.iter().map(of_drive).fold(upper - lower, f64::min)
+    problem
+        .drives
+        .iter()
+        .map(of_drive)
+        .fold(upper - lower, f64::min)
 }
 
 #[cfg(test)]
@@ -92,8 +98,15 @@ mod tests {
         let until = serves_until(&problem).unwrap();
         // Less than two cells' way more than asked for.
         let slack = 2.0 * problem.cell_size / problem.material.p_speed();
-        assert!(until >= problem.end_time && until < problem.end_time + 1.01 * slack, "{until}");
-        for method in [&problem.sides[0][0], &problem.sides[0][1], &problem.sides[1][0]] {
+        assert!(
+            until >= problem.end_time && until < problem.end_time + 1.01 * slack,
+            "{until}"
+        );
+        for method in [
+            &problem.sides[0][0],
+            &problem.sides[0][1],
+            &problem.sides[1][0],
+        ] {
             let thickness = method.given_number("thickness_m").unwrap();
             assert_eq!(thickness % problem.cell_size, 0.0);
         }

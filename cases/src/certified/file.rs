@@ -76,8 +76,14 @@ pub fn read(
     let snapshots = part("-fields")?.map(|table| snapshots(&table));
     Ok(Some(Certified {
         receivers: to_series(&table).map_err(|e| of(&main, e))?,
-        energy: energy.transpose().map_err(|e| of(&main, e))?.unwrap_or_default(),
-        snapshots: snapshots.transpose().map_err(|e| of(&main, e))?.unwrap_or_default(),
+        energy: energy
+            .transpose()
+            .map_err(|e| of(&main, e))?
+            .unwrap_or_default(),
+        snapshots: snapshots
+            .transpose()
+            .map_err(|e| of(&main, e))?
+            .unwrap_or_default(),
         about,
     }))
 }
@@ -132,9 +138,8 @@ fn fields(snapshots: &[Snapshot]) -> String {
     let [nx, ny, _] = lattice.counts;
     for iy in (0..ny).step_by(COARSE) {
         for ix in (0..nx).step_by(COARSE) {
-            let place = |axis: usize, i: usize| {
-                lattice.origin[axis] + i as f64 * lattice.spacing[axis]
-            };
+            let place =
+                |axis: usize, i: usize| lattice.origin[axis] + i as f64 * lattice.spacing[axis];
             let _ = write!(text, "{},{}", place(0, ix), place(1, iy));
             for column in snapshots.iter().flat_map(|snapshot| &snapshot.columns) {
                 let _ = write!(text, ",{:.3e}", column.values[iy * nx + ix]);
@@ -218,7 +223,11 @@ mod tests {
                 counts: [3, 5, 1],
                 origin: [1000.0, -80.0, 0.0],
                 spacing: [20.0, 20.0, 0.0],
-                columns: vec![column("ux", "m", &(0..15).map(f64::from).collect::<Vec<_>>())],
+                columns: vec![column(
+                    "ux",
+                    "m",
+                    &(0..15).map(f64::from).collect::<Vec<_>>(),
+                )],
             }],
         }
     }

@@ -49,7 +49,10 @@ pub fn table(problem: &Problem<2>) -> Table {
 /// First 16 hexadecimal digits of the SHA-256 of the table's text.
 pub fn hash(table: &Table) -> String {
     let digest = Sha256::digest(table.to_string().as_bytes());
-    digest[..8].iter().map(|byte| format!("{byte:02x}")).collect()
+    digest[..8]
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
 }
 
 fn pair(values: [f64; 2]) -> Value {
@@ -119,7 +122,10 @@ mod tests {
         let hash_of_default = of(|_| ());
         assert_eq!(of(|s| s.time.end_s = 7.0), hash_of_default);
         assert_eq!(of(|s| s.t1_s = 3.0), hash_of_default);
-        assert_eq!(of(|s| s.boundary.left = SideMethod::new("dashpot")), hash_of_default);
+        assert_eq!(
+            of(|s| s.boundary.left = SideMethod::new("dashpot")),
+            hash_of_default
+        );
         let changes: [fn(&mut PointSource); 7] = [
             |s| s.grid.h_m = 10.0,
             |s| s.solver.rel_tol = 1e-8,

@@ -93,10 +93,12 @@ pub fn difference(a: &Certified, b: &Certified) -> Option<f64> {
 
 /// Largest component of a receiver's displacement (m).
 fn peak(series: &SeriesTable, receiver: &str) -> f64 {
-    let own = series.columns.iter().filter(|column| {
-        column.name.split('_').next() == Some(receiver)
-    });
-    own.flat_map(|column| &column.values).fold(0.0, |m, v| m.max(v.abs()))
+    let own = series
+        .columns
+        .iter()
+        .filter(|column| column.name.split('_').next() == Some(receiver));
+    own.flat_map(|column| &column.values)
+        .fold(0.0, |m, v| m.max(v.abs()))
 }
 
 fn run(problem: &Problem<2>) -> Result<Record, CaseError> {

@@ -1,9 +1,9 @@
 //! What is printed.
 
 use super::args::Format;
-use crate::commands::{Finished, Plan, Recomputed};
 use crate::certified::causality::with_buffers;
 use crate::certified::library::Library;
+use crate::commands::{Finished, Plan, Recomputed};
 use crate::error::CaseError;
 use crate::field::short;
 use crate::prepare::Prepared;
@@ -174,9 +174,17 @@ pub fn show(prepared: &Prepared, format: Format) -> Result<String, CaseError> {
         format::count(bill.unknowns),
         format::count(bill.steps),
     );
-    let _ = writeln!(text, "  time       {}", estimate(&prepared.scene.problem(), bill));
+    let _ = writeln!(
+        text,
+        "  time       {}",
+        estimate(&prepared.scene.problem(), bill)
+    );
     if let Some(problem) = prepared.scene.extended() {
-        let _ = writeln!(text, "  reference  {}", reference(prepared.info.name, &problem)?);
+        let _ = writeln!(
+            text,
+            "  reference  {}",
+            reference(prepared.info.name, &problem)?
+        );
     }
     Ok(text)
 }
@@ -275,7 +283,10 @@ pub fn recomputed(recomputed: &Recomputed) -> String {
     }
     match recomputed.change {
         Some(change) => {
-            let _ = writeln!(text, "  change     {change:.1e} of the peaks, from the one stored before");
+            let _ = writeln!(
+                text,
+                "  change     {change:.1e} of the peaks, from the one stored before"
+            );
         }
         None => text.push_str("  change     none was stored before\n"),
     }

@@ -178,7 +178,9 @@ pub struct Recomputed {
 /// # Errors
 /// Whatever is wrong with the request; [`CaseError::Usage`] for a scene with a closed form.
 pub fn reference(request: &Request, folder: &Path) -> Result<Recomputed, CaseError> {
-    let prepared = show(request, None)?;
+    let target = Target::find(request)?;
+    // Any method that applies will do, since its sides are extended: the standard one always does.
+    let prepared = target.prepare(Some(target.info.standard))?;
     let case = prepared.info.name;
     let Some(problem) = prepared.scene.extended() else {
         return Err(CaseError::Usage(format!(

@@ -136,7 +136,13 @@ fn energies(run: &Run, windows: &[Window], numbers: &mut Vec<Measurement>) {
         }
         scores
     });
-    numbers.extend(measurements(method, "growth_rate_per_s", "1/s", None, growth));
+    numbers.extend(measurements(
+        method,
+        "growth_rate_per_s",
+        "1/s",
+        None,
+        growth,
+    ));
 }
 
 /// The echo ratio that a certified reference itself is uncertain by.
@@ -158,7 +164,10 @@ fn reference_floor(
             components: vec![vec![value; times.len()], vec![0.0; times.len()]],
         };
         let of = |value: &dyn Fn(&str) -> f64| {
-            let made = standard.receivers().iter().map(|t| constant(t, value(&t.name)));
+            let made = standard
+                .receivers()
+                .iter()
+                .map(|t| constant(t, value(&t.name)));
             Traces::new(times.clone(), made.collect())
         };
         let floor = of(&|name| floor.get(name).copied().unwrap_or(0.0))?;
@@ -242,9 +251,8 @@ impl Subject<'_> {
         let echo = with_standard.clone().and_then(|(run, truth, standard)| {
             with_groups(&echo_ratio(run, truth, standard, &onset)?)
         });
-        let ratio = with_standard.and_then(|(run, _, standard)| {
-            with_groups(&amplitude_ratio(run, standard, &onset)?)
-        });
+        let ratio = with_standard
+            .and_then(|(run, _, standard)| with_groups(&amplitude_ratio(run, standard, &onset)?));
         self.put("echo_ratio", "1", echo, numbers);
         self.put("amplitude_ratio", "1", ratio, numbers);
     }
@@ -273,7 +281,13 @@ impl Subject<'_> {
             with_groups(&amplitude_ratio(truth, standard, &onsets(windows))?)
         });
         let against = self.against();
-        numbers.extend(measurements(REFERENCE, "amplitude_ratio", "1", against, scores));
+        numbers.extend(measurements(
+            REFERENCE,
+            "amplitude_ratio",
+            "1",
+            against,
+            scores,
+        ));
     }
 
     /// Numbers of one metric at all places.

@@ -16,7 +16,9 @@ pub(super) fn rows(runs: &[Run]) -> Vec<Row> {
     };
     let was_run = |value: &PaperValue| {
         let methods = runs.iter().map(|run| run.manifest.method.as_str());
-        methods.into_iter().any(|method| method.split('/').next() == Some(value.method))
+        methods
+            .into_iter()
+            .any(|method| method.split('/').next() == Some(value.method))
     };
     values_of(&first.manifest.case)
         .filter(|value| value.variant == test && was_run(value))

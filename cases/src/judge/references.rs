@@ -74,10 +74,14 @@ pub fn standard_of<'a>(run: &Run, runs: &'a [Run]) -> Option<&'a Run> {
     let name = run.prepared.info.standard;
     let is_standard = |other: &Run| {
         let method = other.manifest.method.as_str();
-        method == name || method.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'))
+        method == name
+            || method
+                .strip_prefix(name)
+                .is_some_and(|rest| rest.starts_with('/'))
     };
     let own = hash(run);
-    runs.iter().find(|other| other.complete() && is_standard(other) && hash(other) == own)
+    runs.iter()
+        .find(|other| other.complete() && is_standard(other) && hash(other) == own)
 }
 
 /// The hash of a run's certified reference, if it needs one.
@@ -104,7 +108,10 @@ fn at_times(certified: &Certified, record: &Record) -> Result<Reference, String>
             .map(|values| values[..samples].to_vec())
             .ok_or(format!("the certified reference has no {column}"))
     };
-    let receivers = series.columns.iter().filter_map(|c| c.name.strip_suffix("_ux"));
+    let receivers = series
+        .columns
+        .iter()
+        .filter_map(|c| c.name.strip_suffix("_ux"));
     Ok(Reference {
         name: CERTIFIED,
         role: Role::NoEcho,

@@ -5,8 +5,8 @@ mod fields;
 use crate::judge::references::References;
 use crate::judge::{traces, traces_of};
 use crate::runner::Run;
-use crate::study::Kind;
 use crate::scene::{Quantity, Reference, Role};
+use crate::study::Kind;
 use anechoic_reports::norms::{
     NormError, Trace, Traces, echo_series, energy_left, growth_rate_per_s, target_energy,
 };
@@ -152,7 +152,7 @@ fn echo(
             let line = Line {
                 name: run.manifest.method.clone(),
                 x: truth.times().to_vec(),
-                y,
+                y: envelope(&y),
             };
             match panels.iter_mut().find(|(name, _)| *name == title) {
                 Some((_, lines)) => lines.push(line),
@@ -164,10 +164,21 @@ fn echo(
     Ok(Some(Picture {
         name: "echo",
         title: "Echo against time",
-        caption: "Distance to the reference without echo, over the standard run's peak. The line is the floor of the reference.".into(),
+        caption: "Distance to the reference without echo, over the standard run's peak, as the largest value of a fiftieth of the run. The line is the floor of the reference.".into(),
         drawing: EchoPlot { panels, floor }.draw()?,
         raster: false,
     }))
+}
+
+/// The largest value of a fiftieth of the series around each sample: an echo that swings through zero
+/// is not gone.
+fn envelope(values: &[f64]) -> Vec<f64> {
+    let reach = values.len() / 100;
+    let around = |i: usize| {
+        let window = &values[i.saturating_sub(reach)..(i + reach + 1).min(values.len())];
+        window.iter().copied().fold(0.0, f64::max)
+    };
+    (0..values.len()).map(around).collect()
 }
 
 /// Echo of each method with its cost.
@@ -279,7 +290,9 @@ fn energy(runs: &[&Run], references: &References) -> Result<Option<Picture>, Pic
             })
         })
         .collect::<Result<_, NormError>>()?;
-    let truth = references.certified(runs[0]).map(|certified| &certified.energy);
+    let truth = references
+        .certified(runs[0])
+        .map(|certified| &certified.energy);
     let reference = truth.filter(|table| !table.times.is_empty()).map(|table| {
         // A longer reference serves a shorter run.
         let end = runs[0].record.energy.times.last().copied().unwrap_or(0.0);
