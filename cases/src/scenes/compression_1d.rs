@@ -83,6 +83,7 @@ pub static INFO: SceneInfo = SceneInfo {
     profiles: values::PROFILES,
     presets: values::PRESETS,
     methods: values::METHODS,
+    ablation: &[],
     ledger: paper::LEDGER,
     standard: "fixed",
     defaults: scene::defaults::<Compression1d>,
@@ -151,7 +152,7 @@ impl Scene for Compression1d {
         let size = self.body.size();
         checks.layers(&self.boundary, size);
         checks.points(&self.points);
-        checks.receivers(&self.receivers, size);
+        checks.receivers(&self.receivers, &self.body.target());
         checks.pulse(&self.pulse(), self.time.end_s);
         checks.step(self.dt(), self.time.end_s);
         checks.require(self.time.scheme == Scheme::Newmark, "time.scheme", || {
@@ -159,8 +160,8 @@ impl Scene for Compression1d {
         });
     }
 
-    fn pulse_amplitude(&self) -> f64 {
-        self.source.amplitude_m_s
+    fn pulse_amplitude(&self) -> Option<f64> {
+        Some(self.source.amplitude_m_s)
     }
 
     fn windows(&self) -> Vec<Window> {
