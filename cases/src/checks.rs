@@ -4,7 +4,7 @@ use crate::draft::Origins;
 use crate::error::Complaint;
 use crate::spec::{BoundarySpec, PointsSpec, ReceiverSpec};
 use anechoic_solver::boundary::{SideMethod, Value};
-use anechoic_solver::problem::{PointMode, Transfer};
+use anechoic_solver::problem::{Aabb, PointMode, Transfer};
 use anechoic_solver::wavelet::Pulse;
 
 /// Collects what is wrong.
@@ -13,9 +13,6 @@ pub struct Checks<'a> {
     origins: &'a Origins,
     complaints: Vec<Complaint>,
 }
-
-/// Relative slack in which a length counts as a multiple of the cell.
-const WHOLE: f64 = 1e-9;
 
 impl<'a> Checks<'a> {
     /// Checks of values that come from `origins`.
@@ -42,18 +39,6 @@ impl<'a> Checks<'a> {
         }
     }
 
-    /// A length that must consist of whole cells.
-    pub fn whole_cells(&mut self, field: &str, length: f64, h: f64) {
-        let cells = length / h;
-        let rounded = cells.round().max(1.0);
-        self.require((cells - rounded).abs() <= WHOLE * rounded, field, || {
-            format!(
-                "{length} m is not a multiple of the cell (grid.h_m = {h} m); nearest: {} m",
-                rounded * h
-            )
-        });
-    }
-
     /// Points in a cell and how they exchange motion with the nodes.
     pub fn points(&mut self, points: &PointsSpec) {
         let n = points.per_cell;
@@ -66,29 +51,32 @@ impl<'a> Checks<'a> {
         });
     }
 
-    /// Receivers with names of their own, inside a box of the given size that starts at the origin (m).
-    pub fn receivers(&mut self, receivers: &[ReceiverSpec], size: [f64; 2]) {
+    /// Receivers with names of their own, inside the body.
+    pub fn receivers(&mut self, receivers: &[ReceiverSpec], body: &Aabb<2>) {
         self.require(!receivers.is_empty(), "receivers", || {
             "the list is empty; a scene needs a receiver at least".into()
         });
         for (index, receiver) in receivers.iter().enumerate() {
-            for (key, at, size) in [
-                ("x_m", receiver.x_m, size[0]),
-                ("y_m", receiver.y_m, size[1]),
-            ] {
-                let inside = (0.0..=size).contains(&at);
-                self.require(inside, &format!("receivers[{index}].{key}"), || {
-                    format!(
-                        "receiver {} at {at} m lies outside the mesh; allowed: 0 <= value <= {size}",
-                        receiver.name
-                    )
-                });
+            let what = format!("receiver {}", receiver.name);
+            for (axis, (key, at)) in [("x_m", receiver.x_m), ("y_m", receiver.y_m)]
+                .into_iter()
+                .enumerate()
+            {
+                self.inside(&format!("receivers[{index}].{key}"), &what, at, body, axis);
             }
             let before = receivers[..index].iter().any(|r| r.name == receiver.name);
             self.require(!before, &format!("receivers[{index}].name"), || {
                 format!("a second receiver is called {}", receiver.name)
             });
         }
+    }
+
+    /// A coordinate (m) that must lie within the body along an axis.
+    pub fn inside(&mut self, field: &str, what: &str, at: f64, body: &Aabb<2>, axis: usize) {
+        let (lower, upper) = (body.lower[axis], body.upper[axis]);
+        self.require((lower..=upper).contains(&at), field, || {
+            format!("{what} at {at} m lies outside the mesh; allowed: {lower} <= value <= {upper}")
+        });
     }
 
     /// A pulse that must be over before the run is.
@@ -108,14 +96,11 @@ impl<'a> Checks<'a> {
         });
     }
 
-    /// Layers of whole cells that leave something of the body, whose size is given (m).
-    pub fn layers(&mut self, boundary: &BoundarySpec, size: [f64; 2], h: f64) {
+    /// Layers that leave something of the body, whose size is given (m).
+    pub fn layers(&mut self, boundary: &BoundarySpec, size: [f64; 2]) {
         for (index, (side, method)) in boundary.named().into_iter().enumerate() {
             let axis = index / 2;
             let field = format!("boundary.{side}.thickness_m");
-            if let Some(thickness) = number(method, "thickness_m") {
-                self.whole_cells(&field, thickness, h);
-            }
             let opposite = boundary.named()[index ^ 1].1;
             let (inner, other) = (inner_thickness(method), inner_thickness(opposite));
             self.require(inner == 0.0 || inner + other < size[axis], &field, || {

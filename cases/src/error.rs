@@ -149,6 +149,9 @@ pub enum CaseError {
     /// The problem cannot be set up for a reason the scene did not see.
     #[error("{0}")]
     Solver(#[from] SolverError),
+    /// Work that was asked to stop.
+    #[error("{0} was stopped before its end")]
+    Stopped(String),
     /// A picture or report could not be made.
     #[error("{what} could not be made: {reason}")]
     Report {
@@ -174,9 +177,10 @@ impl CaseError {
             | CaseError::Filter { .. }
             | CaseError::Usage(_)
             | CaseError::Solver(SolverError::Setup { .. }) => exit::USAGE,
-            CaseError::Storage { .. } | CaseError::Solver(_) | CaseError::Report { .. } => {
-                exit::SOLVER_FAILED
-            }
+            CaseError::Storage { .. }
+            | CaseError::Solver(_)
+            | CaseError::Stopped(_)
+            | CaseError::Report { .. } => exit::SOLVER_FAILED,
         }
     }
 

@@ -5,9 +5,11 @@
 //! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
 //! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
 //! - [`runner`], [`progress`]: solving; [`store`]: records on disk.
+//! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
 //! - [`commands`], [`cli`]: the program.
 
+pub mod certified;
 pub mod checks;
 pub mod cli;
 pub mod commands;

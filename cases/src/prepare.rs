@@ -165,7 +165,10 @@ impl Target {
             draft.overlay(text, &Source::File(path.clone()))?;
         }
         if let Some(name) = method {
-            let method = pick("method", name, self.info.methods)?;
+            let method = self.info.method(name).ok_or_else(|| {
+                let known = self.info.methods.iter().chain(self.info.ablation);
+                CaseError::unknown("method", name, known.map(|o| o.name))
+            })?;
             draft.overlay(method.toml, &built_in("method", method))?;
         }
         for assignment in &self.sets {
@@ -174,21 +177,26 @@ impl Target {
         Ok(draft)
     }
 
-    /// The method whose preset puts the same methods on the sides, else the sides' methods.
+    /// The method whose preset puts the same methods with the same parameters on the sides; else the
+    /// only one that puts the same methods there; else the sides' methods.
     fn row_name(&self, sides: &BoundarySpec) -> String {
         let names = |sides: &BoundarySpec| sides.named().map(|(_, side)| side.method.clone());
         let wanted = names(sides);
-        let matching = self.info.methods.iter().find(|method| {
+        let presets = self.info.methods.iter().filter_map(|method| {
             let mut draft = Draft::new((self.info.defaults)(), self.info.all_fields());
             draft
                 .overlay(method.toml, &built_in("method", method))
-                .and_then(|()| draft.finish())
-                .ok()
-                .and_then(|finished| (self.info.build)(finished.table).ok())
-                .is_some_and(|scene| names(scene.boundary()) == wanted)
+                .ok()?;
+            let scene = (self.info.build)(draft.finish().ok()?.table).ok()?;
+            Some((method.name, scene.boundary().clone()))
         });
-        if let Some(method) = matching {
-            return method.name.to_owned();
+        let presets: Vec<(&str, BoundarySpec)> = presets.collect();
+        if let Some((name, _)) = presets.iter().find(|(_, preset)| preset == sides) {
+            return (*name).to_owned();
+        }
+        let mut alike = presets.iter().filter(|(_, preset)| names(preset) == wanted);
+        if let (Some((name, _)), None) = (alike.next(), alike.next()) {
+            return (*name).to_owned();
         }
         let mut telling: Vec<&str> = Vec::new();
         for name in &wanted {

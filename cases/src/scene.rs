@@ -22,8 +22,9 @@ pub trait Scene: Debug + Send + Sync {
     /// What must hold between fields; ranges of single fields are checked before.
     fn check(&self, checks: &mut Checks<'_>);
 
-    /// Amplitude over which residuals are taken, in the quantity of the references.
-    fn pulse_amplitude(&self) -> f64;
+    /// Amplitude over which residuals are taken, in the quantity of the references; `None` where
+    /// the source is no such motion, and residuals have no meaning.
+    fn pulse_amplitude(&self) -> Option<f64>;
 
     /// When echoes are looked for.
     fn windows(&self) -> Vec<Window>;
@@ -34,8 +35,25 @@ pub trait Scene: Debug + Send + Sync {
     /// The reason why there is no reference for this scene as it stands.
     fn references(&self, times: &[f64]) -> Result<Vec<Reference>, String>;
 
+    /// The scene with sides so far away that nothing comes back, where what is true has to be solved
+    /// for; see [`crate::certified`].
+    fn extended(&self) -> Option<Problem<2>> {
+        None
+    }
+
+    /// Which of the paper's tests this is, as [`anechoic_reference::paper`] names it.
+    fn paper_test(&self) -> Option<&'static str> {
+        None
+    }
+
     /// What is claimed of the methods.
     fn claims(&self) -> Vec<SceneClaim>;
+
+    /// Until when (s) no wave can have come back from the outer end of an extended domain, so that
+    /// the record of this scene certifies others; `None` when it has no such domain.
+    fn serves_until_s(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// The time in which a receiver's echo is looked for.
@@ -128,6 +146,8 @@ pub struct Overlay {
     pub summary: &'static str,
     /// The values.
     pub toml: &'static str,
+    /// Only when it is asked for by name.
+    pub on_request: bool,
 }
 
 impl Overlay {
@@ -137,7 +157,14 @@ impl Overlay {
             name,
             summary,
             toml,
+            on_request: false,
         }
+    }
+
+    /// The same, only when it is asked for by name: a comparison of all methods leaves it out.
+    pub const fn on_request(mut self) -> Self {
+        self.on_request = true;
+        self
     }
 }
 
@@ -160,6 +187,8 @@ pub struct SceneInfo {
     pub presets: &'static [Overlay],
     /// Boundary methods that apply, as presets over sides.
     pub methods: &'static [Overlay],
+    /// Methods taken apart: variants of a method, named `METHOD/VARIANT`, that `ablation` compares.
+    pub ablation: &'static [Overlay],
     /// What the paper says and how it fares: finding, place, note.
     pub ledger: &'static [(Finding, &'static str, &'static str)],
     /// The method that absorbs nothing, over which echoes are taken.
@@ -171,6 +200,12 @@ pub struct SceneInfo {
 }
 
 impl SceneInfo {
+    /// The method or variant called `name`.
+    pub fn method(&self, name: &str) -> Option<&'static Overlay> {
+        let variants = self.methods.iter().chain(self.ablation);
+        variants.into_iter().find(|overlay| overlay.name == name)
+    }
+
     /// All fields in one list.
     pub fn all_fields(&self) -> Vec<&'static Field> {
         self.fields.iter().flat_map(|group| group.iter()).collect()

@@ -1,8 +1,10 @@
 //! A study: runs that are judged and shown together. Everything here is made from records alone, so
 //! that `report` makes the same again without solving.
 
+use crate::certified::library::Library;
 use crate::error::CaseError;
-use crate::judge::{REFERENCE, judge_runs};
+use crate::judge::references::References;
+use crate::judge::{PAPER, REFERENCE, judge_runs};
 use crate::pictures::{self, Picture};
 use crate::runner::Run;
 use crate::store::{json, load, read_json, save_rows, write_file};
@@ -18,9 +20,33 @@ use std::path::{Path, PathBuf};
 /// The metric that methods are ranked by.
 const RANKED_BY: &str = "echo_ratio";
 
+/// What a study is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// Methods side by side, ranked.
+    #[default]
+    Comparison,
+    /// A method taken apart: what each part absorbs.
+    Ablation,
+}
+
+impl Kind {
+    /// Folder of a case's study of this kind.
+    pub fn folder(self, case: &str) -> String {
+        match self {
+            Kind::Comparison => case.to_owned(),
+            Kind::Ablation => format!("{case}-ablation"),
+        }
+    }
+}
+
 /// Which runs make a study; stored beside its report.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StudyFile {
+    /// What it is for.
+    #[serde(default)]
+    pub kind: Kind,
     /// The command that made it.
     pub command: String,
     /// Folders of the runs, below the case's folder, in the order of the comparison.
@@ -32,6 +58,8 @@ pub struct StudyFile {
 pub struct Study {
     /// The case's folder.
     pub folder: PathBuf,
+    /// What it is for.
+    pub kind: Kind,
     /// The command that made it.
     pub command: String,
     /// Its runs.
@@ -60,12 +88,20 @@ const STUDY: &str = "study.json";
 ///
 /// # Errors
 /// [`CaseError::Storage`] and [`CaseError::Report`].
-pub fn publish(folder: &Path, runs: Vec<Run>, command: &str) -> Result<Published, CaseError> {
-    let judged = judge_runs(&runs);
+pub fn publish(
+    folder: &Path,
+    runs: Vec<Run>,
+    kind: Kind,
+    command: &str,
+) -> Result<Published, CaseError> {
+    let results = folder.parent().unwrap_or(folder);
+    let references = References::gather(&runs, &Library::of_results(results));
+    let judged = judge_runs(&runs, &references);
     for run in &runs {
         save_rows(folder, &run.manifest, &judged.rows)?;
     }
     let file = StudyFile {
+        kind,
         command: command.to_owned(),
         runs: runs.iter().map(|run| run.manifest.folder()).collect(),
     };
@@ -85,7 +121,8 @@ pub fn publish(folder: &Path, runs: Vec<Run>, command: &str) -> Result<Published
         write_file(&folder.join(name), made.as_bytes())?;
     }
     let ranking = rank(&judged.rows);
-    let pictures = pictures::draw(&runs, &ranking).map_err(|e| failed("the pictures", &e))?;
+    let pictures = pictures::draw(&runs, kind, &ranking, &references)
+        .map_err(|e| failed("the pictures", &e))?;
     let figures = pictures
         .iter()
         .map(|picture| save_picture(folder, picture))
@@ -145,24 +182,32 @@ fn describe(
     })
 }
 
-/// Ranks the methods; the floor is what an extended domain leaves, which has no boundary to blame.
+/// Ranks the methods, down to the floor of the reference.
+///
+/// The floor is the reference's own uncertainty where it was measured, else what an extended domain
+/// leaves, which has no boundary to blame.
 fn rank(rows: &[Row]) -> Ranking {
-    let rows: Vec<Row> = rows
+    let (own, methods): (Vec<Row>, Vec<Row>) = rows
         .iter()
-        .filter(|row| row.method != REFERENCE)
+        .filter(|row| row.method != PAPER)
         .cloned()
-        .collect();
-    let unbounded = Ranking::from_rows(&rows, RANKED_BY, None);
-    let floor = unbounded
-        .methods
-        .iter()
-        .find(|method| method.method == "extended")
-        .and_then(|method| method.echo)
-        .map(|value| Floor {
+        .partition(|row| row.method == REFERENCE);
+    let floor_of = |rows: &[Row], name: &str| {
+        let unbounded = Ranking::from_rows(rows, RANKED_BY, None);
+        let found = unbounded.methods.into_iter().find(|m| m.method == name);
+        found.and_then(|method| method.echo)
+    };
+    let certified = floor_of(&own, REFERENCE).map(|value| Floor {
+        value,
+        how: "change of the certified reference under a larger buffer and a tenth of the solver's tolerance".into(),
+    });
+    let floor = certified.or_else(|| {
+        floor_of(&methods, "extended").map(|value| Floor {
             value,
             how: "what the extended domain leaves on the same mesh: dispersion alone".into(),
-        });
-    Ranking::from_rows(&rows, RANKED_BY, floor)
+        })
+    });
+    Ranking::from_rows(&methods, RANKED_BY, floor)
 }
 
 /// Writes a picture as SVG and PNG, and gives it as the report shows it.
@@ -204,6 +249,7 @@ pub fn find_studies(folder: &Path) -> Result<Vec<Study>, CaseError> {
             .collect::<Result<_, _>>()?;
         studies.push(Study {
             folder: folder.clone(),
+            kind: file.kind,
             command: file.command,
             runs,
         });

@@ -174,6 +174,7 @@ fn space_time() -> SpaceTimePlot {
     let guide = |position, label: &str| Guide {
         position,
         label: label.to_owned(),
+        method: None,
     };
     SpaceTimePlot {
         quantity: "velocity".to_owned(),
@@ -228,7 +229,8 @@ fn snapshots() -> SnapshotPlot {
                 (*t, fields.collect())
             })
             .collect(),
-        outlines: vec![[[1000.0, -2000.0], [3000.0, 0.0]]],
+        meshes: vec![[[0.0, -3000.0], [4000.0, 0.0]]; 3],
+        extent: [[800.0, -2200.0], [3200.0, 0.0]],
     }
 }
 

@@ -32,7 +32,7 @@ pub mod time;
 pub mod wavelet;
 
 use error::SolverError;
-use problem::Problem;
+use problem::{Aabb, Problem};
 use record::Record;
 
 /// Told of every step; says whether to go on.
@@ -96,4 +96,12 @@ pub fn run_model<const D: usize>(
 /// [`SolverError::Setup`] as for [`solve`].
 pub fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverError> {
     setup::bill(problem)
+}
+
+/// The box (m) of all material of a problem: the body and what its sides' methods add to it.
+///
+/// # Errors
+/// [`SolverError::Setup`] as for [`solve`].
+pub fn material_box<const D: usize>(problem: &Problem<D>) -> Result<Aabb<D>, SolverError> {
+    Ok(setup::Geometry::new(problem)?.material_box)
 }

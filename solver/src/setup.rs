@@ -37,7 +37,7 @@ impl<const D: usize> Geometry<D> {
     pub(crate) fn new(problem: &Problem<D>) -> Result<Self, SolverError> {
         check(problem)?;
         let moving = problem.point_mode == PointMode::Moving;
-        let h = fitted_cell(problem);
+        let h = fitted_cell(&problem.target, problem.cell_size);
         let mut material_box = problem.target;
         let mut assigned = Vec::new();
         let mut margin = [[0; 2]; D];
@@ -123,10 +123,12 @@ fn whole_cells(length: f64, h: f64) -> f64 {
     (length / h - 1e-6).ceil().max(0.0)
 }
 
-fn fitted_cell<const D: usize>(problem: &Problem<D>) -> Vector<D> {
+/// Edges (m) of the cells in use: the longest that divide the lengths of `target` and are not longer
+/// than `largest` (m).
+pub fn fitted_cell<const D: usize>(target: &Aabb<D>, largest: f64) -> Vector<D> {
     std::array::from_fn(|a| {
-        let length = problem.target.upper[a] - problem.target.lower[a];
-        length / whole_cells(length, problem.cell_size)
+        let length = target.upper[a] - target.lower[a];
+        length / whole_cells(length, largest)
     })
 }
 

@@ -5,6 +5,12 @@
 //! before the end. Their scene is small (800 x 600 m, 3 s) and its metric is stricter than the
 //! scene's: the difference over the whole run, the worst receiver.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "a gate that cannot be set up has failed"
+)]
+#![allow(clippy::neg_cmp_op_on_partial_ord, reason = "NaN must not pass")]
+
 use anechoic_reports::norms::growth_rate_per_s;
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::linear::Moment;

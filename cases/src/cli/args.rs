@@ -64,6 +64,21 @@ pub enum Command {
     /// Solve one scene with all methods that apply, judge and rank them.
     #[command(after_help = SOLVE_EXAMPLES)]
     Compare(SolveArgs),
+    /// Take a method apart: solve its variants and judge what each part absorbs.
+    Ablation(WorkArgs),
+    /// Compute a scene's certified reference and its floor, and store it.
+    ///
+    /// Its floor is how much it changes under a larger buffer and a tenth of the solver's tolerance:
+    /// it is solved twice. Comparisons look it up by the hash of what it depends on.
+    Reference {
+        /// Scene.
+        #[command(flatten)]
+        scene: SceneArgs,
+        /// Folder of its tables; those of `results/certified` are found by commands whose --out is
+        /// `results`, those of `reference/data/certified` become part of the program when it is built.
+        #[arg(long, value_name = "DIR", default_value = "results/certified")]
+        into: PathBuf,
+    },
     /// Rebuild rows, pictures and report from records, without solving.
     Report {
         /// Results folder, or a case's folder in it.
@@ -107,15 +122,32 @@ impl SceneArgs {
     }
 }
 
-/// What to solve and where to put it.
+/// Which scene, which methods.
 #[derive(Debug, Args)]
 pub struct SolveArgs {
-    #[command(flatten)]
-    scene: SceneArgs,
     /// Boundary method, as a preset over sides; repeatable for compare [default: run: the scene's
     /// sides, compare: all that apply].
     #[arg(long)]
     method: Vec<String>,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+impl SolveArgs {
+    /// The options, with the command as typed.
+    pub fn options(&self) -> Options {
+        Options {
+            methods: self.method.clone(),
+            ..self.work.options()
+        }
+    }
+}
+
+/// What to solve and where to put it.
+#[derive(Debug, Args)]
+pub struct WorkArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
     /// Only rows whose METHOD/METRIC/WHERE contains this, and the methods that they need.
     #[arg(long)]
     filter: Option<String>,
@@ -133,13 +165,13 @@ pub struct SolveArgs {
     pub dry_run: bool,
 }
 
-impl SolveArgs {
-    /// The options, with the command as typed.
+impl WorkArgs {
+    /// The options without methods, with the command as typed.
     pub fn options(&self) -> Options {
         let typed: Vec<String> = std::env::args().skip(1).collect();
         Options {
             request: self.scene.request(),
-            methods: self.method.clone(),
+            methods: Vec::new(),
             filter: self.filter.clone(),
             out: self.out.clone(),
             jobs: match self.jobs {

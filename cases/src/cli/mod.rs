@@ -7,7 +7,7 @@ use crate::commands::{self, Finished, Plan};
 use crate::error::{CaseError, exit};
 use crate::scenes::SCENES;
 use crate::{progress, scene_text};
-use args::{Arguments, Command, Format, SolveArgs};
+use args::{Arguments, Command, Format, WorkArgs};
 use clap::Parser;
 
 /// Runs the program; returns its exit code.
@@ -42,12 +42,22 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
         Some(Command::Run(solve)) => {
             let options = solve.options();
             let plan = commands::plan_run(&options)?;
-            return solve_or_show(solve, &plan, || commands::run(&options));
+            return solve_or_show(&solve.work, &plan, || commands::run(&options));
         }
         Some(Command::Compare(solve)) => {
             let options = solve.options();
             let plan = commands::plan_compare(&options)?;
-            return solve_or_show(solve, &plan, || commands::compare(&options));
+            return solve_or_show(&solve.work, &plan, || commands::compare(&options));
+        }
+        Some(Command::Ablation(work)) => {
+            let options = work.options();
+            let plan = commands::plan_ablation(&options)?;
+            return solve_or_show(work, &plan, || commands::ablation(&options));
+        }
+        Some(Command::Reference { scene, into }) => {
+            stop_on_interrupt()?;
+            let recomputed = commands::reference(&scene.request(), into)?;
+            print::out(&print::recomputed(&recomputed));
         }
         Some(Command::Report {
             folder,
@@ -68,21 +78,28 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
 
 /// Solves and prints, or says what would be solved.
 fn solve_or_show(
-    solve: &SolveArgs,
+    work: &WorkArgs,
     plan: &Plan,
     command: impl FnOnce() -> Result<Finished, CaseError>,
 ) -> Result<u8, CaseError> {
-    if solve.dry_run {
-        print::out(&print::plan(plan, &solve.out, solve.format)?);
+    for (method, why) in &plan.left_out {
+        eprintln!("{method} is left out: {why}");
+    }
+    if work.dry_run {
+        print::out(&print::plan(plan, &work.out, work.format)?);
         return Ok(exit::PASS);
     }
-    progress::stop_on_interrupt()
-        .map_err(|error| CaseError::Usage(format!("Ctrl-C cannot be caught: {error}")))?;
+    stop_on_interrupt()?;
     let finished = command()?;
     let code = finished.exit_code();
-    if solve.format == Format::Table {
+    if work.format == Format::Table {
         eprint!("{}", print::incomplete(&finished));
     }
-    print::out(&print::results(&[finished], solve.format)?);
+    print::out(&print::results(&[finished], work.format)?);
     Ok(code)
+}
+
+fn stop_on_interrupt() -> Result<(), CaseError> {
+    progress::stop_on_interrupt()
+        .map_err(|error| CaseError::Usage(format!("Ctrl-C cannot be caught: {error}")))
 }

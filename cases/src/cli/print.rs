@@ -1,7 +1,9 @@
 //! What is printed.
 
 use super::args::Format;
-use crate::commands::{Finished, Plan};
+use crate::certified::causality::with_buffers;
+use crate::certified::library::Library;
+use crate::commands::{Finished, Plan, Recomputed};
 use crate::error::CaseError;
 use crate::field::short;
 use crate::prepare::Prepared;
@@ -11,12 +13,22 @@ use anechoic_reports::export::summary_json;
 use anechoic_reports::format;
 use anechoic_reports::judge::Tally;
 use anechoic_reports::table::{measurement_table, ranking_table, verdict_table};
+use anechoic_solver::Bill;
 use anechoic_solver::boundary::METHODS;
+use anechoic_solver::problem::{PointMode, Problem, Transfer};
 use anechoic_solver::record::Status;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
+
+/// Time of a point-step (us) where nodes keep their motion, with layers and pictures, as measured on
+/// one core of a server of 2023.
+const FROZEN_US: f64 = 0.11;
+/// The same where points that rest carry the motion.
+const CARRIED_US: f64 = 0.3;
+/// The same where points move.
+const MOVING_US: f64 = 0.6;
 
 /// Prints to stdout; a reader that has gone away is no error.
 pub fn out(text: &str) {
@@ -162,7 +174,49 @@ pub fn show(prepared: &Prepared, format: Format) -> Result<String, CaseError> {
         format::count(bill.unknowns),
         format::count(bill.steps),
     );
+    let _ = writeln!(
+        text,
+        "  time       {}",
+        estimate(&prepared.scene.problem(), bill)
+    );
+    if let Some(problem) = prepared.scene.extended() {
+        let _ = writeln!(
+            text,
+            "  reference  {}",
+            reference(prepared.info.name, &problem)?
+        );
+    }
     Ok(text)
+}
+
+/// About how long a run takes.
+fn estimate(problem: &Problem<2>, bill: &Bill) -> String {
+    let us = match (problem.point_mode, problem.transfer) {
+        (PointMode::Frozen, Transfer::Keep) => FROZEN_US,
+        (PointMode::Frozen, _) => CARRIED_US,
+        (PointMode::Moving, _) => MOVING_US,
+    };
+    let seconds = 1e-6 * us * bill.points as f64 * bill.steps as f64;
+    format!("about {seconds:.0} s ({us} us a point-step on one core)")
+}
+
+/// Whether a certified reference is at hand, and what it takes otherwise.
+fn reference(case: &str, problem: &Problem<2>) -> Result<String, CaseError> {
+    let extended = with_buffers(problem, 1.0);
+    Ok(match Library::shipped().find(case, problem)? {
+        Some(found) if found.about.serves(problem.end_time).is_ok() => format!(
+            "certified, stored ({}), serves until {:.2} s",
+            found.about.hash, found.about.serves_until_s
+        ),
+        _ => {
+            let bill = anechoic_solver::bill(&extended)?;
+            format!(
+                "certified; does not come with the program: the first comparison computes it, {} unknowns, {}",
+                format::count(bill.unknowns),
+                estimate(&extended, &bill)
+            )
+        }
+    })
 }
 
 /// What would be solved, and where it would go.
@@ -202,6 +256,44 @@ pub fn plan(plan: &Plan, out: &Path, format: Format) -> Result<String, CaseError
         );
     }
     Ok(text)
+}
+
+/// What a reference is, what it cost, and how it compares with the one before.
+pub fn recomputed(recomputed: &Recomputed) -> String {
+    let about = &recomputed.reference.about;
+    let buffers: Vec<String> = about
+        .buffer_m
+        .iter()
+        .map(|(side, m)| format!("{side} {m} m"))
+        .collect();
+    let mut text = format!(
+        "certified reference {}-{}\n  serves     until {:.3} s, buffer {}\n  cost       {} unknowns, {} steps, {:.1} s, {}\n",
+        about.case,
+        about.hash,
+        about.serves_until_s,
+        buffers.join(", "),
+        format::count(about.cost.unknowns),
+        format::count(about.cost.steps),
+        about.cost.wall_s,
+        format::bytes(about.cost.peak_bytes as f64),
+    );
+    if let Some(floor) = &about.floor_m {
+        let largest = floor.values().copied().fold(0.0, f64::max);
+        let _ = writeln!(text, "  floor      {largest:.1e} m at most");
+    }
+    match recomputed.change {
+        Some(change) => {
+            let _ = writeln!(
+                text,
+                "  change     {change:.1e} of the peaks, from the one stored before"
+            );
+        }
+        None => text.push_str("  change     none was stored before\n"),
+    }
+    for file in &recomputed.files {
+        let _ = writeln!(text, "  {}", file.display());
+    }
+    text
 }
 
 /// Verdicts, ranking, measurements, and where the report lies; or the rows as JSON.

@@ -2,12 +2,15 @@
 
 mod plan;
 
+use crate::certified::Certified;
+use crate::certified::library::Library;
+use crate::certified::solve::{compute, difference, measure_floor};
 use crate::error::{CaseError, exit};
 use crate::filter::Filter;
 use crate::prepare::{Prepared, Request, Target};
 use crate::runner::run_all;
 use crate::store::Store;
-use crate::study::{Published, find_studies, publish};
+use crate::study::{Kind, Published, find_studies, publish};
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::Status;
 pub use plan::Plan;
@@ -131,7 +134,7 @@ pub fn plan_compare(options: &Options) -> Result<Plan, CaseError> {
 /// # Errors
 /// Whatever is wrong with the request, found before the solve; [`CaseError::Storage`] after it.
 pub fn run(options: &Options) -> Result<Finished, CaseError> {
-    execute(Plan::run(options)?, options)
+    execute(Plan::run(options)?, Kind::Comparison, options)
 }
 
 /// Solves one scene with all methods that apply, judges and ranks them.
@@ -139,7 +142,60 @@ pub fn run(options: &Options) -> Result<Finished, CaseError> {
 /// # Errors
 /// As [`run`]. A method whose solver fails is no error: it is a run that failed.
 pub fn compare(options: &Options) -> Result<Finished, CaseError> {
-    execute(Plan::compare(options)?, options)
+    execute(Plan::compare(options)?, Kind::Comparison, options)
+}
+
+/// What `ablation` would do.
+///
+/// # Errors
+/// Whatever is wrong with the request.
+pub fn plan_ablation(options: &Options) -> Result<Plan, CaseError> {
+    Plan::ablation(options)
+}
+
+/// Takes a scene's method apart: solves its variants and judges what each part absorbs.
+///
+/// # Errors
+/// As [`run`].
+pub fn ablation(options: &Options) -> Result<Finished, CaseError> {
+    execute(Plan::ablation(options)?, Kind::Ablation, options)
+}
+
+/// A certified reference that was computed.
+#[derive(Debug)]
+pub struct Recomputed {
+    /// The reference, with its floor.
+    pub reference: Certified,
+    /// Its tables.
+    pub files: Vec<PathBuf>,
+    /// Largest difference from the one that was stored before, over each receiver's peak.
+    pub change: Option<f64>,
+}
+
+/// Computes the certified reference of a scene with its floor, compares it with the stored one, and
+/// stores it in `folder`.
+///
+/// # Errors
+/// Whatever is wrong with the request; [`CaseError::Usage`] for a scene with a closed form.
+pub fn reference(request: &Request, folder: &Path) -> Result<Recomputed, CaseError> {
+    let target = Target::find(request)?;
+    // Any method that applies will do, since its sides are extended: the standard one always does.
+    let prepared = target.prepare(Some(target.info.standard))?;
+    let case = prepared.info.name;
+    let Some(problem) = prepared.scene.extended() else {
+        return Err(CaseError::Usage(format!(
+            "{case} has a closed form: its reference needs no computation"
+        )));
+    };
+    let library = Library::of_folder(folder);
+    let before = library.find(case, &problem)?;
+    let mut reference = compute(case, &problem)?;
+    measure_floor(&mut reference, &problem)?;
+    Ok(Recomputed {
+        change: before.and_then(|before| difference(&reference, &before)),
+        files: library.save(&reference)?,
+        reference,
+    })
 }
 
 /// Judges and shows stored studies again, without solving.
@@ -151,18 +207,35 @@ pub fn report(folder: &Path, filter: Option<&str>) -> Result<Vec<Finished>, Case
     find_studies(folder)?
         .into_iter()
         .map(|study| {
-            let published = publish(&study.folder, study.runs, &study.command)?;
+            let published = publish(&study.folder, study.runs, study.kind, &study.command)?;
             Finished::new(published, filter.as_ref())
         })
         .collect()
 }
 
-fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
-    let store = Store::open(&options.out)?;
-    let folder = store.case_folder(plan.case());
+fn execute(plan: Plan, kind: Kind, options: &Options) -> Result<Finished, CaseError> {
+    let store = Store::open(&options.out, &kind.folder(plan.case()))?;
+    provide_references(&plan, &Library::of_results(&options.out))?;
     let runs = run_all(plan.scenes, options.jobs, &store)?;
     Finished::new(
-        publish(&folder, runs, &options.command)?,
+        publish(store.folder(), runs, kind, &options.command)?,
         plan.filter.as_ref(),
     )
+}
+
+/// Solves for the certified references that the scenes need and that nobody has stored.
+///
+/// One that cannot be computed is no error here: the runs go on, and their claims say why they were
+/// not evaluated.
+fn provide_references(plan: &Plan, library: &Library) -> Result<(), CaseError> {
+    for scene in &plan.scenes {
+        let Some(problem) = scene.scene.extended() else {
+            continue;
+        };
+        match library.obtain(scene.info.name, &problem) {
+            Ok(_) | Err(CaseError::Solver(_) | CaseError::Stopped(_)) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
 }

@@ -1,9 +1,14 @@
 //! Which scenes a command solves.
 
 use super::Options;
-use crate::error::CaseError;
+use crate::error::{CaseError, Complaint};
 use crate::filter::Filter;
+use crate::judge::CERTIFIER;
 use crate::prepare::{Prepared, Target};
+use crate::scene::SceneInfo;
+use crate::scenes::SCENES;
+use anechoic_reference::claim::Evidence;
+use anechoic_reports::norms::{group_of, group_worst};
 
 /// Scenes ready to run.
 #[derive(Debug)]
@@ -12,6 +17,8 @@ pub struct Plan {
     pub scenes: Vec<Prepared>,
     /// Which rows are asked for.
     pub filter: Option<Filter>,
+    /// Methods that do not apply to the scene as it stands, and why.
+    pub left_out: Vec<(String, String)>,
 }
 
 impl Plan {
@@ -35,6 +42,7 @@ impl Plan {
         Ok(Plan {
             scenes: vec![scene],
             filter,
+            left_out: Vec::new(),
         })
     }
 
@@ -42,7 +50,10 @@ impl Plan {
     pub(super) fn compare(options: &Options) -> Result<Self, CaseError> {
         let target = Target::find(&options.request)?;
         let mut names: Vec<&str> = match options.methods.as_slice() {
-            [] => target.info.methods.iter().map(|m| m.name).collect(),
+            [] => {
+                let usual = target.info.methods.iter().filter(|m| !m.on_request);
+                usual.map(|m| m.name).collect()
+            }
             some => some.iter().map(String::as_str).collect(),
         };
         let mut described = if target.names_sides() {
@@ -61,25 +72,92 @@ impl Plan {
         if let Some(filter) = &filter {
             let any = target.prepare(None)?;
             let chosen = filter.methods(&names, &places(&any))?;
-            // Ratios need the standard run.
-            names.retain(|name| chosen.contains(name) || *name == target.info.standard);
-        }
-        let mut scenes = Vec::new();
-        for name in names {
-            let file_says = described_name.as_deref() == Some(name);
-            scenes.push(match described.take_if(|_| file_says) {
-                Some(scene) => scene,
-                None => target.prepare(Some(name))?,
+            // Ratios need the standard run. Certified claims need the extended one, unless the scene
+            // has a reference that is stored.
+            let certified = any.scene.extended().is_none()
+                && any.scene.claims().iter().any(|claim| {
+                    claim.claim.evidence == Evidence::Certified
+                        && chosen.contains(&claim.claim.method.as_str())
+                });
+            names.retain(|name| {
+                chosen.contains(name)
+                    || *name == target.info.standard
+                    || (certified && *name == CERTIFIER)
             });
         }
+        let (mut scenes, mut left_out) = (Vec::new(), Vec::new());
+        for name in names {
+            let file_says = described_name.as_deref() == Some(name);
+            if let Some(scene) = described.take_if(|_| file_says) {
+                scenes.push(scene);
+                continue;
+            }
+            match (target.prepare(Some(name)), refusal(options)) {
+                (Ok(scene), _) => scenes.push(scene),
+                (Err(CaseError::Scene(complaints)), Some(is_refusal))
+                    if complaints.iter().all(is_refusal) =>
+                {
+                    let why = complaints.first().map_or("", |c| c.message.as_str());
+                    left_out.push((name.to_owned(), why.to_owned()));
+                }
+                (Err(error), _) => return Err(error),
+            }
+        }
         refuse_unused(&unused_everywhere(&scenes))?;
-        Ok(Plan { scenes, filter })
+        Ok(Plan {
+            scenes,
+            filter,
+            left_out,
+        })
+    }
+
+    /// The published parts of a method, one by one, with the standard runs that they need.
+    pub(super) fn ablation(options: &Options) -> Result<Self, CaseError> {
+        let target = Target::find(&options.request)?;
+        let variants = target.info.ablation;
+        if variants.is_empty() {
+            return Err(CaseError::Usage(format!(
+                "{} has no method that is taken apart; cases that have: {}",
+                target.info.name,
+                names_of(SCENES.iter().filter(|scene| !scene.ablation.is_empty()))
+            )));
+        }
+        let mut names: Vec<&str> = variants.iter().map(|variant| variant.name).collect();
+        let filter = options.filter.clone().map(Filter);
+        if let Some(filter) = &filter {
+            let chosen = filter.methods(&names, &places(&target.prepare(None)?))?;
+            let standard = format!("{}/", target.info.standard);
+            names.retain(|name| chosen.contains(name) || name.starts_with(&standard));
+        }
+        let scenes = names
+            .into_iter()
+            .map(|name| target.prepare(Some(name)))
+            .collect::<Result<Vec<_>, _>>()?;
+        refuse_unused(&unused_everywhere(&scenes))?;
+        Ok(Plan {
+            scenes,
+            filter,
+            left_out: Vec::new(),
+        })
     }
 
     /// The case.
     pub fn case(&self) -> &'static str {
         self.scenes.first().map_or("", |scene| scene.info.name)
     }
+}
+
+/// What tells that a method does not apply to a scene, where methods were not named one by one.
+fn refusal(options: &Options) -> Option<fn(&Complaint) -> bool> {
+    let of_method = |complaint: &Complaint| {
+        complaint.field.starts_with("boundary.") && complaint.field.ends_with(".method")
+    };
+    options.methods.is_empty().then_some(of_method)
+}
+
+fn names_of<'a>(scenes: impl Iterator<Item = &'a &'static SceneInfo>) -> String {
+    let names: Vec<&str> = scenes.map(|scene| scene.name).collect();
+    names.join(", ")
 }
 
 /// Assignments that reached no side in any scene.
@@ -109,7 +187,8 @@ pub(super) fn refuse_unused(unused: &[String]) -> Result<(), CaseError> {
 fn places(scene: &Prepared) -> Vec<String> {
     let mut places = vec!["run".to_owned(), "target".to_owned()];
     for window in scene.scene.windows() {
-        places.push(window.place());
+        let group = group_of(&window.receiver);
+        places.extend([group.to_owned(), group_worst(group), window.place()]);
     }
     places
 }

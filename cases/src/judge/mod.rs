@@ -1,20 +1,31 @@
 //! From runs to rows: every metric that applies, against every reference that the scene gives.
 
 mod arrivals;
+mod certified;
+mod papers;
+pub mod references;
 
+pub use certified::CERTIFIER;
+
+use crate::certified::Certified;
 use crate::runner::Run;
 use crate::scene::{Quantity, Reference, Role, Window};
 use anechoic_reference::claim::{Claim, Evidence};
 use anechoic_reports::judge::{Measurement, cost_measurements, judge, measurements};
 use anechoic_reports::norms::{
     NormError, Onset, Score, Trace, Traces, amplitude_ratio, echo_level_db, echo_ratio,
-    energy_left, peak_error, rel_l2, residual, target_energy, with_groups, with_groups_db,
+    energy_left, growth_rate_per_s, peak_error, rel_l2, residual, target_energy, with_groups,
+    with_groups_db,
 };
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::{Record, Status};
+use references::{References, standard_of};
 
 /// The method's name in rows that give the reference's own value.
 pub const REFERENCE: &str = "reference";
+
+/// The method's name in rows that give a number printed in a paper.
+pub const PAPER: &str = "paper";
 
 /// What judging gives.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,15 +37,18 @@ pub struct Judged {
 }
 
 /// Judges runs of one study; ratios are taken over the run of the scene's standard method.
-pub fn judge_runs(runs: &[Run]) -> Judged {
-    let standard = runs
-        .iter()
-        .find(|run| run.manifest.method == run.prepared.info.standard && run.complete());
+pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
+    let extended = certified::certifier(runs);
     let mut judged = Judged::default();
     for (index, run) in runs.iter().enumerate() {
         let mut numbers = cost_measurements(&run.manifest.method, &run.record.cost);
         let obstacle = match &run.record.status {
-            Status::Complete => measure(run, standard, index == 0, &mut numbers),
+            Status::Complete => {
+                let missing = certified::measure(run, extended, &mut numbers).err();
+                judged.reference_missing = judged.reference_missing.or(missing);
+                let standard = standard_of(run, runs);
+                measure(run, references, standard, index == 0, &mut numbers)
+            }
             Status::Cancelled => Err("the run was stopped before its end".to_owned()),
             Status::Failed(error) => Err(format!("the run failed: {error}")),
         };
@@ -45,6 +59,7 @@ pub fn judge_runs(runs: &[Run]) -> Judged {
         }
         judged.rows.extend(rows_of(run, &numbers, obstacle.err()));
     }
+    judged.rows.extend(papers::rows(runs));
     judged
 }
 
@@ -76,14 +91,15 @@ fn rows_of(run: &Run, numbers: &[Measurement], obstacle: Option<String>) -> Vec<
 /// All metrics of a complete run.
 fn measure(
     run: &Run,
+    references: &References,
     standard: Option<&Run>,
     first: bool,
     numbers: &mut Vec<Measurement>,
 ) -> Result<(), String> {
     let scene = run.prepared.scene.as_ref();
-    let references = scene.references(&run.record.receivers.times)?;
     let windows = scene.windows();
-    for reference in &references {
+    energies(run, &windows, numbers);
+    for reference in &references.of(run)? {
         let subject = Subject {
             method: &run.manifest.method,
             reference,
@@ -101,18 +117,76 @@ fn measure(
             }
         }
     }
-    let last = windows.iter().map(|w| w.from_s).fold(0.0, f64::max);
-    let left = target_energy(&run.record.energy)
-        .and_then(|energy| energy_left(&run.record.energy.times, &energy, last));
-    let place = |value| vec![Score::new("target", value)];
-    numbers.extend(measurements(
-        &run.manifest.method,
-        "energy_left",
-        "1",
-        None,
-        left.map(place),
-    ));
+    if first && let Some(certified) = references.certified(run) {
+        reference_floor(run, certified, &windows, standard, numbers);
+    }
     Ok(())
+}
+
+/// What energy is left, and whether it grows.
+fn energies(run: &Run, windows: &[Window], numbers: &mut Vec<Measurement>) {
+    let (method, table) = (&run.manifest.method, &run.record.energy);
+    let last = windows.iter().map(|w| w.from_s).fold(0.0, f64::max);
+    let left = target_energy(table)
+        .and_then(|energy| energy_left(&table.times, &energy, last))
+        .map(|value| vec![Score::new("target", value)]);
+    numbers.extend(measurements(method, "energy_left", "1", None, left));
+    let Some(total) = table.column("total") else {
+        return;
+    };
+    let growth = growth_rate_per_s(&table.times, total).map(|slope| {
+        let mut scores = vec![Score::new("total", slope.value)];
+        if let Some([low, high]) = slope.interval {
+            scores.push(Score::new("total:low", low));
+            scores.push(Score::new("total:high", high));
+        }
+        scores
+    });
+    numbers.extend(measurements(
+        method,
+        "growth_rate_per_s",
+        "1/s",
+        None,
+        growth,
+    ));
+}
+
+/// The echo ratio that a certified reference itself is uncertain by.
+fn reference_floor(
+    run: &Run,
+    certified: &Certified,
+    windows: &[Window],
+    standard: Option<&Run>,
+    numbers: &mut Vec<Measurement>,
+) {
+    let (Some(floor), Some(standard)) = (&certified.about.floor_m, standard) else {
+        return;
+    };
+    let scores = traces(&standard.record, Quantity::Displacement).and_then(|standard| {
+        // A run that departs from silence by the floor, receiver by receiver.
+        let times = run.record.receivers.times.clone();
+        let constant = |trace: &Trace, value: f64| Trace {
+            name: trace.name.clone(),
+            components: vec![vec![value; times.len()], vec![0.0; times.len()]],
+        };
+        let of = |value: &dyn Fn(&str) -> f64| {
+            let made = standard
+                .receivers()
+                .iter()
+                .map(|t| constant(t, value(&t.name)));
+            Traces::new(times.clone(), made.collect())
+        };
+        let floor = of(&|name| floor.get(name).copied().unwrap_or(0.0))?;
+        let scores = echo_ratio(&floor, &of(&|_| 0.0)?, &standard, &onsets(windows))?;
+        with_groups(&scores)
+    });
+    numbers.extend(measurements(REFERENCE, "echo_ratio", "1", None, scores));
+}
+
+/// Each receiver's own start of its window.
+fn onsets(windows: &[Window]) -> Onset {
+    let own = windows.iter().filter(|window| window.label.is_empty());
+    Onset::Each(own.map(|w| (w.receiver.clone(), w.from_s)).collect())
 }
 
 /// A run, what is true of it, and the run that absorbs nothing.
@@ -158,7 +232,39 @@ impl Subject<'_> {
     }
 
     /// How much echo the method leaves.
-    fn echo(&self, windows: &[Window], amplitude: f64, numbers: &mut Vec<Measurement>) {
+    fn echo(&self, windows: &[Window], amplitude: Option<f64>, numbers: &mut Vec<Measurement>) {
+        if let Some(amplitude) = amplitude {
+            self.residuals(windows, amplitude, numbers);
+        }
+        let level = self
+            .pair()
+            .and_then(|(run, truth)| with_groups_db(&echo_level_db(run, truth)?));
+        self.put("echo_level_db", "dB", level, numbers);
+        if self.reference.evidence == Evidence::Certified {
+            let distance = self
+                .pair()
+                .and_then(|(run, truth)| with_groups(&rel_l2(run, truth)?));
+            self.put("rel_l2", "1", distance, numbers);
+        }
+        let Some(standard) = &self.standard else {
+            return;
+        };
+        let onset = onsets(windows);
+        let with_standard = self.pair().and_then(|(run, truth)| {
+            let standard = standard.as_ref().map_err(NormError::clone)?;
+            Ok((run, truth, standard))
+        });
+        let echo = with_standard.clone().and_then(|(run, truth, standard)| {
+            with_groups(&echo_ratio(run, truth, standard, &onset)?)
+        });
+        let ratio = with_standard
+            .and_then(|(run, _, standard)| with_groups(&amplitude_ratio(run, standard, &onset)?));
+        self.put("echo_ratio", "1", echo, numbers);
+        self.put("amplitude_ratio", "1", ratio, numbers);
+    }
+
+    /// What is left in each window, over the pulse.
+    fn residuals(&self, windows: &[Window], amplitude: f64, numbers: &mut Vec<Measurement>) {
         for window in windows {
             let score = self.pair().and_then(|(run, truth)| {
                 let (run, truth) = (cut(run, window)?, cut(truth, window)?);
@@ -170,65 +276,36 @@ impl Subject<'_> {
             }
             numbers.push(number);
         }
-        let level = self
-            .pair()
-            .and_then(|(run, truth)| with_groups_db(&echo_level_db(run, truth)?));
-        numbers.extend(measurements(
-            self.method,
-            "echo_level_db",
-            "dB",
-            self.against(),
-            level,
-        ));
-        if self.standard.is_none() {
-            return;
-        }
-        for window in windows.iter().filter(|window| window.label.is_empty()) {
-            let onset = Onset::Same(window.from_s);
-            let series = self.pair().and_then(|(run, truth)| {
-                Ok((
-                    cut(run, window)?,
-                    cut(truth, window)?,
-                    self.standard(window)?,
-                ))
-            });
-            let series = series.as_ref().map_err(NormError::clone);
-            let echo = series
-                .clone()
-                .and_then(|(run, truth, standard)| echo_ratio(run, truth, standard, &onset));
-            let ratio =
-                series.and_then(|(run, _, standard)| amplitude_ratio(run, standard, &onset));
-            for (metric, scores) in [("echo_ratio", echo), ("amplitude_ratio", ratio)] {
-                numbers.push(self.at(&window.place(), metric, "1", scores));
-            }
-        }
     }
 
     /// What a perfect absorber scores in the amplitude ratio.
     fn floor(&self, windows: &[Window], numbers: &mut Vec<Measurement>) {
-        if self.standard.is_none() {
+        let Some(Ok(standard)) = &self.standard else {
             return;
-        }
-        for window in windows.iter().filter(|window| window.label.is_empty()) {
-            let score = self.pair().and_then(|(_, truth)| {
-                let onset = Onset::Same(window.from_s);
-                amplitude_ratio(&cut(truth, window)?, &self.standard(window)?, &onset)
-            });
-            let mut number = self.at(&window.place(), "amplitude_ratio", "1", score);
-            number.method = REFERENCE.to_owned();
-            numbers.push(number);
-        }
+        };
+        let scores = self.pair().and_then(|(_, truth)| {
+            with_groups(&amplitude_ratio(truth, standard, &onsets(windows))?)
+        });
+        let against = self.against();
+        numbers.extend(measurements(
+            REFERENCE,
+            "amplitude_ratio",
+            "1",
+            against,
+            scores,
+        ));
     }
 
-    fn standard(&self, window: &Window) -> Result<Traces, NormError> {
-        match &self.standard {
-            Some(Ok(standard)) => cut(standard, window),
-            Some(Err(error)) => Err(error.clone()),
-            None => Err(NormError::MissingReceiver {
-                receiver: window.receiver.clone(),
-                from: "the standard run",
-            }),
-        }
+    /// Numbers of one metric at all places.
+    fn put(
+        &self,
+        metric: &str,
+        unit: &str,
+        scores: Result<Vec<Score>, NormError>,
+        numbers: &mut Vec<Measurement>,
+    ) {
+        let against = self.against();
+        numbers.extend(measurements(self.method, metric, unit, against, scores));
     }
 
     /// One number at one place.

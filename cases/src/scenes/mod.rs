@@ -14,6 +14,7 @@ macro_rules! scenes {
 
 scenes! {
     compression_1d,
+    point_source,
 }
 
 /// The benchmark called `name`.

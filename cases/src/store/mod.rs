@@ -1,4 +1,4 @@
-//! Records on disk: `OUT/CASE/METHOD/HASH/`, written beside and renamed, so that a folder is whole.
+//! Records on disk: `OUT/STUDY/METHOD/HASH/`, written beside and renamed, so that a folder is whole.
 //!
 //! | file | holds |
 //! |---|---|
@@ -58,18 +58,19 @@ struct Fields {
     snapshots: Vec<Snapshot>,
 }
 
-/// A results folder.
+/// The folder of a study in a results folder.
 #[derive(Clone, Debug)]
 pub struct Store {
-    root: PathBuf,
+    folder: PathBuf,
 }
 
 impl Store {
-    /// A folder that can be written: it is made, and a file is put there and taken away.
+    /// The folder called `study` in a results folder that can be written: that is made, and a file
+    /// is put there and taken away.
     ///
     /// # Errors
     /// [`CaseError::Output`].
-    pub fn open(root: &Path) -> Result<Self, CaseError> {
+    pub fn open(root: &Path, study: &str) -> Result<Self, CaseError> {
         let failed = |source| CaseError::Output {
             path: root.to_owned(),
             source,
@@ -78,18 +79,18 @@ impl Store {
         let mut probe = tempfile::NamedTempFile::new_in(root).map_err(failed)?;
         probe.write_all(b"probe").map_err(failed)?;
         Ok(Store {
-            root: root.to_owned(),
+            folder: root.join(study),
         })
     }
 
-    /// Folder of a case.
-    pub fn case_folder(&self, case: &str) -> PathBuf {
-        self.root.join(case)
+    /// The study's folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
     }
 
     /// Folder of a run.
     pub fn run_folder(&self, manifest: &Manifest) -> PathBuf {
-        self.case_folder(&manifest.case).join(manifest.folder())
+        self.folder.join(manifest.folder())
     }
 
     /// Stores a run; an earlier one of the same input is replaced when the new one is whole.
@@ -98,7 +99,7 @@ impl Store {
     /// [`CaseError::Storage`].
     pub fn save(&self, run: &Run) -> Result<(), CaseError> {
         let folder = self.run_folder(&run.manifest);
-        let parent = folder.parent().unwrap_or(&self.root);
+        let parent = folder.parent().unwrap_or(&self.folder);
         let failed = |path: &Path, source| CaseError::Storage {
             path: path.to_owned(),
             source,

@@ -35,7 +35,7 @@ pub use drawing::Drawing;
 pub use echo::EchoPlot;
 pub use energy::EnergyPlot;
 pub use panels::Line;
-pub use snapshots::{Field, SnapshotPlot};
+pub use snapshots::{Corners, Field, SnapshotPlot};
 pub use space_time::{Guide, SpaceTimePlot};
 pub use traces::{TracePanel, TracePlot};
 

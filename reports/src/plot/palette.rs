@@ -16,12 +16,14 @@ pub const REFERENCE: RGBColor = RGBColor(0xc4, 0xc4, 0xc4);
 /// Paper.
 pub const PAPER: RGBColor = RGBColor(0xff, 0xff, 0xff);
 
-const NAMED: [(&str, RGBColor); 9] = [
+const NAMED: [(&str, RGBColor); 11] = [
     ("fixed", RGBColor(0xd5, 0x5e, 0x00)),
     ("roller", RGBColor(0xd5, 0x5e, 0x00)),
     ("dashpot", RGBColor(0xe6, 0x9f, 0x00)),
     ("damping-layer", RGBColor(0x00, 0x9e, 0x73)),
     ("pml", RGBColor(0x00, 0x72, 0xb2)),
+    ("pml-20", RGBColor(0x33, 0x22, 0x88)),
+    ("pml-50", RGBColor(0xcc, 0x66, 0x99)),
     ("pml-stretched", RGBColor(0x56, 0xb4, 0xe9)),
     ("penalty", RGBColor(0xcc, 0x79, 0xa7)),
     ("extended", RGBColor(0x55, 0x55, 0x55)),
@@ -38,8 +40,9 @@ const OTHERS: [RGBColor; 6] = [
 ];
 
 /// The colour of a method: fixed for the known ones (`fixed` and `roller`, which never meet, share
-/// theirs), by a hash of the name for others.
+/// theirs), by a hash of the name for others; a variant `METHOD/VARIANT` has that of its method.
 pub fn method(name: &str) -> RGBColor {
+    let name = name.split('/').next().unwrap_or(name);
     if let Some((_, colour)) = NAMED.iter().find(|(known, _)| *known == name) {
         return *colour;
     }

@@ -14,9 +14,6 @@ const GAP: f64 = 24.0;
 const TOP: f64 = 26.0;
 const FOOT: f64 = 40.0;
 
-/// Smallest and largest value.
-type Range = (f64, f64);
-
 /// Magnitude of a vector field on a lattice of the x-y plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
@@ -68,9 +65,14 @@ pub struct SnapshotPlot {
     pub methods: Vec<String>,
     /// Times (s) from top to bottom, each with one field a method.
     pub rows: Vec<(f64, Vec<Field>)>,
-    /// Outlines (m): lower left and upper right corner of the target or of layers.
-    pub outlines: Vec<[[f64; 2]; 2]>,
+    /// All material of each method (m): what lies around its fields is drawn as ground.
+    pub meshes: Vec<Corners>,
+    /// What the panels show (m).
+    pub extent: Corners,
 }
+
+/// Lower left and upper right corner (m).
+pub type Corners = [[f64; 2]; 2];
 
 impl SnapshotPlot {
     /// Draws it.
@@ -78,8 +80,8 @@ impl SnapshotPlot {
         self.check()?;
         let across = self.methods.len() as f64;
         let width = (WIDTH - LEFT - BAR - 14.0 - GAP * (across - 1.0)) / across;
-        let (x_range, y_range) = self.extent();
-        let aspect = (y_range.1 - y_range.0) / (x_range.1 - x_range.0);
+        let [lower, upper] = self.extent;
+        let aspect = (upper[1] - lower[1]) / (upper[0] - lower[0]);
         let height = (width * aspect).clamp(40.0, 420.0);
         let total = TOP + self.rows.len() as f64 * (height + GAP) + FOOT;
         let mut drawing = Drawing::new(WIDTH as u32, total as u32);
@@ -91,16 +93,11 @@ impl SnapshotPlot {
                     top: TOP + row as f64 * (height + GAP),
                     width,
                     height,
-                    x: Axis::linear(x_range.0, x_range.1, (width / 60.0) as usize),
-                    y: Axis::linear(y_range.0, y_range.1, (height / 30.0) as usize),
+                    x: Axis::linear(lower[0], upper[0], (width / 60.0) as usize),
+                    y: Axis::linear(lower[1], upper[1], (height / 30.0) as usize),
                 };
-                let raster = Raster {
-                    x: &field.x,
-                    y: &field.y,
-                    value: &|ix, iy| field.values[iy * field.x.len() + ix],
-                };
-                raster.draw(&mut drawing, &panel, &colours);
-                self.draw_outlines(&mut drawing, &panel);
+                draw_ground(&mut drawing, &panel, &self.meshes[column]);
+                draw_field(&mut drawing, &panel, field, &colours);
                 self.label(&mut drawing, &panel, (row, column), *time);
             }
         }
@@ -113,6 +110,14 @@ impl SnapshotPlot {
     fn check(&self) -> Result<(), PlotError> {
         if self.methods.is_empty() || self.rows.is_empty() {
             return Err(empty(PICTURE, "no method or no time"));
+        }
+        if self.meshes.len() != self.methods.len() {
+            return Err(PlotError::Shape {
+                picture: PICTURE,
+                what: "the meshes".to_owned(),
+                expected: self.methods.len(),
+                found: self.meshes.len(),
+            });
         }
         for (time, fields) in &self.rows {
             if fields.len() != self.methods.len() {
@@ -143,31 +148,12 @@ impl SnapshotPlot {
         self.rows.iter().flat_map(|(_, fields)| fields)
     }
 
-    fn extent(&self) -> (Range, Range) {
-        let range = |pick: fn(&Field) -> &Vec<f64>| {
-            self.fields()
-                .flat_map(pick)
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-                    (f64::min(low, *v), f64::max(high, *v))
-                })
-        };
-        (range(|f| &f.x), range(|f| &f.y))
-    }
-
     fn limit(&self) -> f64 {
         let largest = self
             .fields()
             .flat_map(|f| &f.values)
             .fold(0.0, |m, v| f64::max(m, *v));
         if largest > 0.0 { largest } else { 1.0 }
-    }
-
-    fn draw_outlines(&self, drawing: &mut Drawing, panel: &Panel) {
-        for [lower, upper] in &self.outlines {
-            let (a, b) = (panel.at(lower[0], lower[1]), panel.at(upper[0], upper[1]));
-            let path = vec![a, (b.0, a.1), b, (a.0, b.1), a];
-            drawing.add(Mark::Path(path, Stroke::dashed(palette::PAPER, 1.2)));
-        }
     }
 
     fn label(
@@ -191,4 +177,41 @@ impl SnapshotPlot {
             panel.y_title(drawing, &text, 84.0);
         }
     }
+}
+
+/// The panel's pixels of a rectangle, cut at the panel's edges.
+fn inside(panel: &Panel, [lower, upper]: &Corners) -> ((f64, f64), (f64, f64)) {
+    let (a, b) = (panel.at(lower[0], upper[1]), panel.at(upper[0], lower[1]));
+    (a, b)
+}
+
+/// Material around the field, with its outer edge.
+fn draw_ground(drawing: &mut Drawing, panel: &Panel, mesh: &Corners) {
+    let (a, b) = inside(panel, mesh);
+    drawing.add(Mark::Fill(a, b, palette::GRID));
+    let outline = vec![a, (a.0, b.1), b, (b.0, a.1)];
+    drawing.add(Mark::Path(outline, Stroke::solid(palette::SOFT, 1.0)));
+}
+
+/// The field in its own part of the panel, outlined.
+fn draw_field(drawing: &mut Drawing, panel: &Panel, field: &Field, colours: &Colours) {
+    let ends = |values: &[f64]| (values[0], values[values.len() - 1]);
+    let ((x0, x1), (y0, y1)) = (ends(&field.x), ends(&field.y));
+    let (a, b) = inside(panel, &[[x0, y0], [x1, y1]]);
+    let part = Panel {
+        left: a.0,
+        top: a.1,
+        width: b.0 - a.0,
+        height: b.1 - a.1,
+        x: Axis::linear(x0, x1, 1),
+        y: Axis::linear(y0, y1, 1),
+    };
+    let raster = Raster {
+        x: &field.x,
+        y: &field.y,
+        value: &|ix, iy| field.values[iy * field.x.len() + ix],
+    };
+    raster.draw(drawing, &part, colours);
+    let outline = vec![a, (a.0, b.1), b, (b.0, a.1)];
+    drawing.add(Mark::Path(outline, Stroke::solid(palette::INK, 1.0)));
 }

@@ -28,7 +28,7 @@ impl Drawing {
         let size = (self.width * DRAWN, self.height * DRAWN);
         {
             let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
-            self.draw_on(&root)?;
+            self.draw_on(&root, Pen::Path)?;
             root.present().map_err(backend)?;
         }
         // Shown at its logical size; the view box keeps the fine raster.
@@ -44,7 +44,7 @@ impl Drawing {
         let mut pixels = vec![0u8; size.0 as usize * size.1 as usize * 3];
         {
             let root = BitMapBackend::with_buffer(&mut pixels, size).into_drawing_area();
-            self.draw_on(&root)?;
+            self.draw_on(&root, Pen::Round)?;
             root.present().map_err(backend)?;
         }
         let factor = DRAWN / PNG_SCALE;
@@ -52,10 +52,14 @@ impl Drawing {
         encode(&averaged, self.width * PNG_SCALE, self.height * PNG_SCALE)
     }
 
-    fn draw_on<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Result<(), PlotError> {
+    fn draw_on<DB: DrawingBackend>(
+        &self,
+        root: &DrawingArea<DB, Shift>,
+        pen: Pen,
+    ) -> Result<(), PlotError> {
         root.fill(&palette::PAPER).map_err(backend)?;
         for mark in &self.marks {
-            draw_mark(root, mark)?;
+            draw_mark(root, mark, pen)?;
         }
         Ok(())
     }
@@ -93,6 +97,7 @@ fn pixel((x, y): (f64, f64)) -> (i32, i32) {
 fn draw_mark<DB: DrawingBackend>(
     root: &DrawingArea<DB, Shift>,
     mark: &Mark,
+    pen: Pen,
 ) -> Result<(), PlotError> {
     let scale = f64::from(DRAWN);
     match mark {
@@ -106,7 +111,12 @@ fn draw_mark<DB: DrawingBackend>(
             };
             for piece in pieces {
                 let path: Vec<(i32, i32)> = piece.into_iter().map(pixel).collect();
-                root.draw(&PathElement::new(path, style)).map_err(backend)?;
+                match pen {
+                    Pen::Path => {
+                        root.draw(&PathElement::new(path, style)).map_err(backend)?;
+                    }
+                    Pen::Round => draw_round(root, &path, style, width)?,
+                }
             }
             Ok(())
         }
@@ -127,6 +137,35 @@ fn draw_mark<DB: DrawingBackend>(
             .map_err(backend),
         Mark::Text(label) => draw_label(root, label, scale),
     }
+}
+
+/// Draws a path segment by segment with a disc at each joint: the library's own bitmaps of thick paths
+/// run out into long spikes where a path turns back.
+fn draw_round<DB: DrawingBackend>(
+    root: &DrawingArea<DB, Shift>,
+    path: &[(i32, i32)],
+    style: ShapeStyle,
+    width: u32,
+) -> Result<(), PlotError> {
+    for pair in path.windows(2) {
+        root.draw(&PathElement::new(pair.to_vec(), style))
+            .map_err(backend)?;
+    }
+    let joints = path.get(1..path.len().saturating_sub(1)).unwrap_or(&[]);
+    for joint in joints.iter().filter(|_| width > 2) {
+        let disc = Circle::new(*joint, (width / 2) as i32, style.color.filled());
+        root.draw(&disc).map_err(backend)?;
+    }
+    Ok(())
+}
+
+/// How paths are put down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pen {
+    /// As one path, whose joints the viewer draws.
+    Path,
+    /// Segment by segment with round joints.
+    Round,
 }
 
 fn draw_label<DB: DrawingBackend>(

@@ -1,15 +1,23 @@
 //! Pictures of a study. Only complete runs are drawn; the report says which are not.
 
+mod fields;
+
+use crate::judge::references::References;
 use crate::judge::{traces, traces_of};
 use crate::runner::Run;
 use crate::scene::{Quantity, Reference, Role};
-use anechoic_reports::norms::{NormError, Traces, echo_series, target_energy};
+use crate::study::Kind;
+use anechoic_reports::norms::{
+    NormError, Trace, Traces, echo_series, energy_left, growth_rate_per_s, target_energy,
+};
 use anechoic_reports::plot::{
-    BarPlot, Bars, Drawing, EchoPlot, EnergyPlot, Guide, Line, PlotError, SpaceTimePlot,
-    TracePanel, TracePlot,
+    BarPlot, Bars, Drawing, EchoPlot, EnergyPlot, Line, PlotError, TracePanel, TracePlot,
 };
 use anechoic_reports::ranking::Ranking;
 use thiserror::Error;
+
+/// The reference's name in pictures.
+const NO_ECHO: &str = "no echo";
 
 /// A picture of the report.
 #[derive(Debug)]
@@ -41,15 +49,21 @@ pub enum PictureError {
 ///
 /// # Errors
 /// [`PictureError`] when a record is out of shape.
-pub fn draw(runs: &[Run], ranking: &Ranking) -> Result<Vec<Picture>, PictureError> {
+pub fn draw(
+    runs: &[Run],
+    kind: Kind,
+    ranking: &Ranking,
+    references: &References,
+) -> Result<Vec<Picture>, PictureError> {
     let runs: Vec<&Run> = runs.iter().filter(|run| run.complete()).collect();
     let Some(first) = runs.first() else {
         return Ok(Vec::new());
     };
-    let reference = first
-        .prepared
-        .scene
-        .references(&first.record.receivers.times)
+    if kind == Kind::Ablation {
+        return Ok(parts(&runs, ranking)?.into_iter().collect());
+    }
+    let reference = references
+        .of(first)
         .ok()
         .and_then(|all| all.into_iter().find(|r| r.role == Role::NoEcho));
     let mut pictures = vec![series(&runs, reference.as_ref())?];
@@ -57,17 +71,19 @@ pub fn draw(runs: &[Run], ranking: &Ranking) -> Result<Vec<Picture>, PictureErro
         pictures.extend(echo(&runs, reference, ranking)?);
     }
     pictures.extend(bars(ranking)?);
-    pictures.extend(space_time(&runs)?);
-    pictures.extend(energy(&runs)?);
+    pictures.extend(fields::space_time(&runs)?);
+    pictures.extend(fields::snapshots(&runs, ranking, references)?);
+    pictures.extend(energy(&runs, references)?);
     Ok(pictures)
 }
 
-/// Receivers' series over the reference, in the component that moves most.
+/// Receivers' series over the reference: velocities in the component that moves most, displacements
+/// by their magnitude, as the papers show them.
 fn series(runs: &[&Run], reference: Option<&Reference>) -> Result<Picture, PictureError> {
     let quantity = reference.map_or(Quantity::Velocity, |r| r.quantity);
-    let (name, unit) = match quantity {
-        Quantity::Displacement => ("displacement", "m"),
-        Quantity::Velocity => ("velocity", "m/s"),
+    let unit = match quantity {
+        Quantity::Displacement => "m",
+        Quantity::Velocity => "m/s",
     };
     let truth = match reference {
         Some(reference) => Some(traces_of(reference, &runs[0].record)?),
@@ -75,10 +91,14 @@ fn series(runs: &[&Run], reference: Option<&Reference>) -> Result<Picture, Pictu
     };
     let all = traces_of_runs(runs, quantity)?;
     let axis = strongest(&all[0].1);
+    let shown = |trace: &Trace| match quantity {
+        Quantity::Displacement => trace.magnitude(),
+        Quantity::Velocity => trace.components[axis].clone(),
+    };
     let line = |name: &str, traces: &Traces, receiver: usize| Line {
         name: name.to_owned(),
         x: traces.times().to_vec(),
-        y: traces.receivers()[receiver].components[axis].clone(),
+        y: shown(&traces.receivers()[receiver]),
     };
     let panels = all[0]
         .1
@@ -87,12 +107,15 @@ fn series(runs: &[&Run], reference: Option<&Reference>) -> Result<Picture, Pictu
         .enumerate()
         .map(|(i, receiver)| TracePanel {
             title: place(runs[0], &receiver.name),
-            reference: truth.as_ref().map(|t| line("no echo", t, i)),
+            reference: truth.as_ref().map(|t| line(NO_ECHO, t, i)),
             lines: all.iter().map(|(m, t)| line(m, t, i)).collect(),
         })
         .collect();
     let drawing = TracePlot {
-        quantity: format!("{name} {}", ["x", "y"][axis.min(1)]),
+        quantity: match quantity {
+            Quantity::Displacement => "|u|".to_owned(),
+            Quantity::Velocity => format!("velocity {}", ["x", "y"][axis.min(1)]),
+        },
         unit: unit.to_owned(),
         panels,
     }
@@ -129,7 +152,7 @@ fn echo(
             let line = Line {
                 name: run.manifest.method.clone(),
                 x: truth.times().to_vec(),
-                y,
+                y: envelope(&y),
             };
             match panels.iter_mut().find(|(name, _)| *name == title) {
                 Some((_, lines)) => lines.push(line),
@@ -141,10 +164,21 @@ fn echo(
     Ok(Some(Picture {
         name: "echo",
         title: "Echo against time",
-        caption: "Distance to the reference without echo, over the standard run's peak. The line is the floor of the reference.".into(),
+        caption: "Distance to the reference without echo, over the standard run's peak, as the largest value of a fiftieth of the run. The line is the floor of the reference.".into(),
         drawing: EchoPlot { panels, floor }.draw()?,
         raster: false,
     }))
+}
+
+/// The largest value of a fiftieth of the series around each sample: an echo that swings through zero
+/// is not gone.
+fn envelope(values: &[f64]) -> Vec<f64> {
+    let reach = values.len() / 100;
+    let around = |i: usize| {
+        let window = &values[i.saturating_sub(reach)..(i + reach + 1).min(values.len())];
+        window.iter().copied().fold(0.0, f64::max)
+    };
+    (0..values.len()).map(around).collect()
 }
 
 /// Echo of each method with its cost.
@@ -182,41 +216,63 @@ fn bars(ranking: &Ranking) -> Result<Option<Picture>, PictureError> {
     }))
 }
 
-/// Velocity over place and time, methods side by side.
-fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
-    let fields: Vec<_> = runs
-        .iter()
-        .filter_map(|run| {
-            let field = run.record.lines.first()?.clone();
-            Some((run.manifest.method.clone(), field))
-        })
-        .collect();
-    let Some((_, field)) = fields.first() else {
-        return Ok(None);
+/// What each variant of a method leaves, in the order of the study: echo, and energy that stays.
+fn parts(runs: &[&Run], ranking: &Ranking) -> Result<Option<Picture>, PictureError> {
+    let ranked = |run: &Run| {
+        let mut methods = ranking.methods.iter();
+        methods.find(|m| m.method == run.manifest.method && m.echo.is_some())
     };
-    let quantity = format!("velocity {}", field.name.trim_start_matches('v'));
-    let guides = receivers(runs[0])
-        .into_iter()
-        .map(|(label, [_, y])| Guide { position: y, label })
+    let shown: Vec<_> = runs
+        .iter()
+        .filter_map(|run| Some((*run, ranked(run)?)))
         .collect();
-    let drawing = SpaceTimePlot {
-        quantity,
-        fields,
-        guides,
-        limit: None,
+    if shown.is_empty() {
+        return Ok(None);
+    }
+    let left = |run: &Run| -> Option<f64> {
+        let energy = &run.record.energy;
+        let t1 = run.prepared.scene.windows().first()?.from_s;
+        energy_left(&energy.times, &target_energy(energy).ok()?, t1).ok()
+    };
+    let growth = |run: &Run| -> Option<f64> {
+        let energy = &run.record.energy;
+        let slope = growth_rate_per_s(&energy.times, energy.column("total")?).ok()?;
+        Some(slope.value)
+    };
+    let drawing = BarPlot {
+        methods: shown.iter().map(|(_, m)| m.method.clone()).collect(),
+        echo: Bars {
+            title: "echo ratio".into(),
+            unit: String::new(),
+            values: shown.iter().map(|(_, m)| m.echo).collect(),
+        },
+        worst: shown.iter().map(|(_, m)| m.worst).collect(),
+        floor: ranking.floor.as_ref().map(|floor| floor.value),
+        costs: vec![
+            Bars {
+                title: "energy left".into(),
+                unit: String::new(),
+                values: shown.iter().map(|(run, _)| left(run)).collect(),
+            },
+            Bars {
+                title: "energy grows by".into(),
+                unit: "1/s".into(),
+                values: shown.iter().map(|(run, _)| growth(run)).collect(),
+            },
+        ],
     }
     .draw()?;
     Ok(Some(Picture {
-        name: "space-time",
-        title: "Waves in space and time",
-        caption: "Waves are slanted bands; a band that turns round at the base is echo. All methods share one scale.".into(),
+        name: "ablation",
+        title: "What each part absorbs",
+        caption: "Echo ratio of each variant (log axis; one is a fixed edge), the energy left in the target after t1, and how fast the total energy grows in the second half of the run.".into(),
         drawing,
-        raster: true,
+        raster: false,
     }))
 }
 
 /// Energy in the target.
-fn energy(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
+fn energy(runs: &[&Run], references: &References) -> Result<Option<Picture>, PictureError> {
     let runs: Vec<&&Run> = runs
         .iter()
         .filter(|run| !run.record.energy.times.is_empty())
@@ -234,9 +290,24 @@ fn energy(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
             })
         })
         .collect::<Result<_, NormError>>()?;
+    let truth = references
+        .certified(runs[0])
+        .map(|certified| &certified.energy);
+    let reference = truth.filter(|table| !table.times.is_empty()).map(|table| {
+        // A longer reference serves a shorter run.
+        let end = runs[0].record.energy.times.last().copied().unwrap_or(0.0);
+        let samples = table.times.partition_point(|t| *t <= end);
+        let mut y = target_energy(table)?;
+        y.truncate(samples);
+        Ok::<_, NormError>(Line {
+            name: NO_ECHO.to_owned(),
+            x: table.times[..samples].to_vec(),
+            y,
+        })
+    });
     let drawing = EnergyPlot {
         unit: "J/m".into(),
-        reference: None,
+        reference: reference.transpose()?,
         lines,
     }
     .draw()?;

@@ -1,0 +1,95 @@
+//! Where certified references lie: those that come with the program, and those that a results folder
+//! has from earlier commands.
+
+use super::{Certified, file, key, solve};
+use crate::error::CaseError;
+use crate::store::write_file;
+use anechoic_solver::problem::Problem;
+use std::path::{Path, PathBuf};
+
+/// Folder of references in a results folder.
+const FOLDER: &str = "certified";
+
+/// References that come with the program, and those of a folder, if there is one.
+#[derive(Clone, Debug)]
+pub struct Library {
+    folder: Option<PathBuf>,
+}
+
+impl Library {
+    /// Those that come with the program alone.
+    pub fn shipped() -> Self {
+        Library { folder: None }
+    }
+
+    /// Those of a results folder as well.
+    pub fn of_results(root: &Path) -> Self {
+        Library {
+            folder: Some(root.join(FOLDER)),
+        }
+    }
+
+    /// Those of a folder of references as well.
+    pub fn of_folder(folder: &Path) -> Self {
+        Library {
+            folder: Some(folder.to_owned()),
+        }
+    }
+
+    /// The reference of an extended problem: one that serves until its end, if any does, else one
+    /// that does not.
+    ///
+    /// # Errors
+    /// [`CaseError::BadRecord`] for a damaged one.
+    pub fn find(&self, case: &str, problem: &Problem<2>) -> Result<Option<Certified>, CaseError> {
+        let hash = key::hash(&key::table(problem));
+        let shipped = file::read(case, &hash, |name| {
+            anechoic_reference::certified::table(name).map(str::to_owned)
+        })?;
+        let own = match &self.folder {
+            None => None,
+            Some(folder) => file::read(case, &hash, |name| {
+                std::fs::read_to_string(folder.join(name)).ok()
+            })?,
+        };
+        let serves = |found: &Certified| found.about.serves(problem.end_time).is_ok();
+        let found = [shipped, own].into_iter().flatten();
+        Ok(found.max_by_key(serves))
+    }
+
+    /// The reference of an extended problem; solves for it and stores it when there is none that
+    /// serves until the problem's end.
+    ///
+    /// # Errors
+    /// As [`Library::find`], [`solve::compute`] and [`Library::save`].
+    pub fn obtain(&self, case: &str, problem: &Problem<2>) -> Result<Certified, CaseError> {
+        if let Some(found) = self.find(case, problem)?
+            && found.about.serves(problem.end_time).is_ok()
+        {
+            return Ok(found);
+        }
+        let reference = solve::compute(case, problem)?;
+        self.save(&reference)?;
+        Ok(reference)
+    }
+
+    /// Stores a reference in the folder, if there is one; returns the files.
+    ///
+    /// # Errors
+    /// [`CaseError::Storage`].
+    pub fn save(&self, reference: &Certified) -> Result<Vec<PathBuf>, CaseError> {
+        let Some(folder) = &self.folder else {
+            return Ok(Vec::new());
+        };
+        let mut files = file::write(reference)?;
+        // The main table last: it is what is looked for.
+        files.rotate_left(1);
+        let mut paths = Vec::new();
+        for (name, text) in files {
+            let path = folder.join(name);
+            write_file(&path, text.as_bytes())?;
+            paths.push(path);
+        }
+        Ok(paths)
+    }
+}

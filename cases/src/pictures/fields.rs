@@ -1,0 +1,147 @@
+//! Pictures of fields: over place and time, and at some times.
+
+use super::{NO_ECHO, Picture, PictureError, receivers};
+use crate::checks::inner_thickness;
+use crate::judge::references::References;
+use crate::runner::Run;
+use anechoic_reports::plot::{Corners, Field, Guide, PlotError, SnapshotPlot, SpaceTimePlot};
+use anechoic_reports::ranking::Ranking;
+use anechoic_solver::material_box;
+use anechoic_solver::record::Snapshot;
+
+/// The method whose fields are shown between standard and reference, where it was run; else the best.
+const SHOWN: &str = "pml";
+
+/// Ground shown around the method's mesh, over its width.
+const AROUND: f64 = 0.04;
+
+/// Velocity over place and time, methods side by side.
+pub(super) fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
+    let fields: Vec<_> = runs
+        .iter()
+        .filter_map(|run| {
+            let field = run.record.lines.first()?.clone();
+            Some((run.manifest.method.clone(), field))
+        })
+        .collect();
+    let Some((_, field)) = fields.first() else {
+        return Ok(None);
+    };
+    let quantity = format!("velocity {}", field.name.trim_start_matches('v'));
+    let mut guides: Vec<Guide> = receivers(runs[0])
+        .into_iter()
+        .map(|(label, [_, y])| Guide {
+            position: y,
+            label,
+            method: None,
+        })
+        .collect();
+    // The edge of a layer that damps part of the body itself.
+    guides.extend(runs.iter().filter_map(|run| {
+        let thickness = inner_thickness(&run.prepared.scene.boundary().bottom);
+        (thickness > 0.0).then(|| Guide {
+            position: run.prepared.scene.problem().target.lower[1] + thickness,
+            label: "layer".into(),
+            method: Some(run.manifest.method.clone()),
+        })
+    }));
+    let drawing = SpaceTimePlot {
+        quantity,
+        fields,
+        guides,
+        limit: None,
+    }
+    .draw()?;
+    Ok(Some(Picture {
+        name: "space-time",
+        title: "Waves in space and time",
+        caption: "Waves are slanted bands; a band that turns round at the base is echo. Dashed: receivers, and the upper edge of a layer inside the body. All methods share one scale.".into(),
+        drawing,
+        raster: true,
+    }))
+}
+
+/// Displacement at the snapshots' times: standard, a method, the reference without echo.
+pub(super) fn snapshots(
+    runs: &[&Run],
+    ranking: &Ranking,
+    references: &References,
+) -> Result<Option<Picture>, PictureError> {
+    let named = |name: &str| {
+        let mut runs = runs.iter().filter(|run| !run.record.snapshots.is_empty());
+        runs.find(|run| run.manifest.method == name)
+    };
+    let standard = runs
+        .first()
+        .and_then(|run| named(run.prepared.info.standard));
+    let best = ranking.methods.iter().find_map(|m| named(&m.method));
+    let (Some(standard), Some(method)) = (standard, named(SHOWN).or(best)) else {
+        return Ok(None);
+    };
+    let mut columns = vec![
+        (standard.manifest.method.clone(), &standard.record.snapshots),
+        (method.manifest.method.clone(), &method.record.snapshots),
+    ];
+    let mut meshes = vec![mesh(standard), mesh(method)];
+    if let Some(certified) = references.certified(method)
+        && !certified.snapshots.is_empty()
+    {
+        columns.push((NO_ECHO.to_owned(), &certified.snapshots));
+        // It goes on far beyond the picture.
+        meshes.push(around(mesh(standard), 1.0));
+    }
+    let rows = method.record.snapshots.iter().filter_map(|snapshot| {
+        let fields: Option<Vec<_>> = columns
+            .iter()
+            .map(|(_, snapshots)| at(snapshots, snapshot.time).map(magnitude))
+            .collect();
+        Some(
+            fields?
+                .into_iter()
+                .collect::<Result<_, _>>()
+                .map(|f| (snapshot.time, f)),
+        )
+    });
+    let drawing = SnapshotPlot {
+        quantity: "|u|".into(),
+        unit: "m".into(),
+        methods: columns.iter().map(|(name, _)| name.clone()).collect(),
+        rows: rows.collect::<Result<_, PlotError>>()?,
+        extent: around(mesh(method), AROUND),
+        meshes,
+    }
+    .draw()?;
+    Ok(Some(Picture {
+        name: "snapshots",
+        title: "Displacement in the target",
+        caption: "Grey: material around the target, in the middle the method's layer with its outer edge. One scale for all.".into(),
+        drawing,
+        raster: true,
+    }))
+}
+
+/// The snapshot of a time.
+fn at(snapshots: &[Snapshot], time: f64) -> Option<&Snapshot> {
+    snapshots.iter().find(|s| (s.time - time).abs() < 1e-6)
+}
+
+fn magnitude(snapshot: &Snapshot) -> Result<Field, PlotError> {
+    Field::magnitude(snapshot, &["ux", "uy"])
+}
+
+/// All material of a run (m).
+fn mesh(run: &Run) -> Corners {
+    let problem = run.prepared.scene.problem();
+    // What was run was set up before.
+    let all = material_box(&problem).unwrap_or(problem.target);
+    [all.lower, all.upper]
+}
+
+/// A box grown by a share of its width, but not beyond its top, where nothing is.
+fn around([lower, upper]: Corners, share: f64) -> Corners {
+    let margin = share * (upper[0] - lower[0]);
+    [
+        [lower[0] - margin, lower[1] - margin],
+        [upper[0] + margin, upper[1]],
+    ]
+}
