@@ -81,6 +81,15 @@ pub fn solve<const D: usize>(
     run::run(problem, monitor)
 }
 
+/// Runs a model that [`setup::model`] built for `problem` and the caller may have altered.
+pub fn run_model<const D: usize>(
+    problem: &Problem<D>,
+    model: physics::model::Model<D>,
+    monitor: &dyn Monitor,
+) -> Outcome {
+    run::run_model(problem, model, monitor)
+}
+
 /// The bill of a problem.
 ///
 /// # Errors

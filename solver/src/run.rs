@@ -2,6 +2,7 @@
 
 use crate::error::SolverError;
 use crate::linear::Moment;
+use crate::physics::model::Model;
 use crate::problem::{Problem, Scheme};
 use crate::record::{Cost, Record, SeriesTable, Status};
 use crate::sampler::Sampler;
@@ -14,7 +15,14 @@ pub(crate) fn run<const D: usize>(
     problem: &Problem<D>,
     monitor: &dyn Monitor,
 ) -> Result<Outcome, SolverError> {
-    let mut model = setup::model(problem)?;
+    Ok(run_model(problem, setup::model(problem)?, monitor))
+}
+
+pub(crate) fn run_model<const D: usize>(
+    problem: &Problem<D>,
+    mut model: Model<D>,
+    monitor: &dyn Monitor,
+) -> Outcome {
     let nodes = model.grid.node_count();
     let mut integrator: Box<dyn Integrator<D>> = match problem.scheme {
         Scheme::Newmark => Box::new(Newmark::new(nodes)),
@@ -62,5 +70,5 @@ pub(crate) fn run<const D: usize>(
     record.cost.unknowns = model.unknowns();
     record.cost.iterations = model.solver.iterations;
     record.cost.linear_solver = model.solver.describe();
-    Ok(Outcome { record, error })
+    Outcome { record, error }
 }

@@ -420,7 +420,7 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
     let stress = if problem.transfer == Transfer::Keep {
         0
     } else {
-        size_of::<[[f64; D]; D]>()
+        2 * size_of::<[[f64; D]; D]>()
     };
     let disc = on_grid(
         problem.basis,

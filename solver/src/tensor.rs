@@ -50,6 +50,18 @@ pub fn mul_transposed<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D>
     out
 }
 
+/// `a^T`.
+#[inline]
+pub fn transposed<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
+    let mut out = zero::<D>();
+    for i in 0..D {
+        for j in 0..D {
+            out[j][i] = a[i][j];
+        }
+    }
+    out
+}
+
 /// `a + s b`.
 #[inline]
 pub fn add_scaled<const D: usize>(a: &Matrix<D>, s: f64, b: &Matrix<D>) -> Matrix<D> {

@@ -1,5 +1,7 @@
 //! What the gates share: small problems, and a monitor that lets them run.
 
+pub mod twin;
+
 use anechoic_solver::Monitor;
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::probe::{Probes, Receiver};
@@ -101,4 +103,90 @@ pub fn column(h: f64, base: SideMethod) -> Problem<2> {
         rel_tol: 1e-10,
         ..block(Transfer::Keep, PointMode::Frozen)
     }
+}
+
+/// Where the receivers of [`half_space`] are: two at the surface, two below.
+pub const PLACES: [(&str, [f64; 2]); 4] = [
+    ("A1", [300.0, -20.0]),
+    ("A2", [700.0, -20.0]),
+    ("B1", [150.0, -500.0]),
+    ("C1", [700.0, -500.0]),
+];
+
+/// A small point source: 800 x 600 m of the half-space of K25 3.1, cells of 20 m, a full sine of
+/// 2 Hz at (150, 0), the same method left, right and below.
+pub fn half_space(layer: SideMethod, point_mode: PointMode, transfer: Transfer) -> Problem<2> {
+    Problem {
+        target: Aabb {
+            lower: [0.0, -600.0],
+            upper: [800.0, 0.0],
+        },
+        cell_size: 20.0,
+        dt: 0.01,
+        end_time: 3.0,
+        material: Elastic {
+            youngs_modulus: 2e9,
+            poissons_ratio: 0.25,
+            density: 2000.0,
+        },
+        sides: [
+            [layer.clone(), layer.clone()],
+            [layer, SideMethod::new("free")],
+        ],
+        drives: vec![Drive::PointForce {
+            place: [150.0, 0.0],
+            direction: [0.0, -1.0],
+            pulse: Pulse {
+                wavelet: Wavelet::Sine,
+                amplitude: 1e6,
+                frequency: 2.0,
+                t0: 0.0,
+            },
+        }],
+        probes: Probes {
+            receivers: PLACES
+                .iter()
+                .map(|(name, place)| Receiver {
+                    name: (*name).into(),
+                    place: *place,
+                })
+                .collect(),
+            energy_every: Some(1),
+            ..Probes::default()
+        },
+        rel_tol: 1e-10,
+        ..block(transfer, point_mode)
+    }
+}
+
+/// Largest difference of a run's displacement vector from another's over the largest of the latter,
+/// the worst of all receivers.
+///
+/// # Panics
+/// When a record lacks a receiver.
+pub fn worst_echo(record: &Record, reference: &Record) -> f64 {
+    let column = |record: &Record, name: String| -> Vec<f64> {
+        record
+            .receivers
+            .column(&name)
+            .expect("a receiver of the problem")
+            .to_vec()
+    };
+    let largest = |x: &[f64], y: &[f64]| {
+        x.iter()
+            .zip(y)
+            .map(|(x, y)| x.hypot(*y))
+            .fold(0.0, f64::max)
+    };
+    PLACES
+        .iter()
+        .map(|(name, _)| {
+            let [mx, my] = ["ux", "uy"].map(|c| column(record, format!("{name}_{c}")));
+            let [rx, ry] = ["ux", "uy"].map(|c| column(reference, format!("{name}_{c}")));
+            let minus = |a: &[f64], b: &[f64]| -> Vec<f64> {
+                a.iter().zip(b).map(|(a, b)| a - b).collect()
+            };
+            largest(&minus(&mx, &rx), &minus(&my, &ry)) / largest(&rx, &ry)
+        })
+        .fold(0.0, f64::max)
 }

@@ -157,13 +157,13 @@ fn the_tangent_is_the_derivative_of_the_residual() {
     model.begin_step([0.0, 0.02], MOMENT);
     let first = nodal(&model, |x| [1e-3 * x[1], 2e-3 * (x[0] - x[1])]);
     let rest = vec![[0.0; 2]; first.len()];
-    model
-        .commit(&Motion {
-            increment: &first,
-            v: &rest,
-            a: &rest,
-        })
-        .unwrap();
+    let accepted = Motion {
+        increment: &first,
+        v: &rest,
+        a: &rest,
+    };
+    model.residual(&accepted, &mut rest.clone()).unwrap();
+    model.commit(&accepted).unwrap();
     model.begin_step([0.02, 0.04], MOMENT);
     let n = rest.len();
     let base = nodal(&model, |x| [1e-3 * x[0].sin(), 1e-3 * x[1].cos()]);

@@ -67,8 +67,15 @@ impl<B: Basis, const D: usize> GridDiscretisation<B, D> {
     /// Adds the blocks of one stencil and clears them.
     fn flush(&self, nodes: &[u32], local: &mut [Matrix<D>], out: &mut BlockMatrix<D>) {
         for (i, &row) in nodes.iter().enumerate() {
+            let (mut slot, mut before) = (usize::MAX, u32::MAX - 1);
             for (j, &column) in nodes.iter().enumerate() {
-                let slot = self.pattern.slot(row as usize, column as usize);
+                // neighbours along x stand side by side in a row
+                slot = if column == before + 1 {
+                    slot + 1
+                } else {
+                    self.pattern.slot(row as usize, column as usize)
+                };
+                before = column;
                 add_into(&mut out.blocks[slot], &local[i * nodes.len() + j]);
             }
         }

@@ -45,7 +45,7 @@ pub static METHOD: MethodInfo = MethodInfo {
         },
         Param {
             name: "with_flip",
-            doc: "whether to run where the transfer makes the layer unstable (flip), to study it",
+            doc: "run where flip makes the layer unstable, its points taking part in the transfer, to study it",
             kind: ParamKind::Choice(&["refuse", "force"]),
         },
     ],
@@ -68,15 +68,19 @@ pub(crate) fn layout<const D: usize>(
     if problem.scheme == Scheme::QuasiStatic {
         return refuse("a perfectly matched layer absorbs waves; use fixed or roller with quasi-static");
     }
-    let forced = method.choice(&METHOD, "with_flip") == "force";
-    if matches!(problem.transfer, Transfer::Flip) && !forced {
+    let flip = problem.transfer == Transfer::Flip;
+    let forced = flip && method.choice(&METHOD, "with_flip") == "force";
+    if flip && !forced {
         return refuse(
             "unstable with points.transfer = \"flip\", whose motion is filtered and the layer's damping is not; use \"affine\", or pml.with_flip = \"force\" to see it grow",
         );
     }
-    let outside =
-        method.given_number("thickness_m").unwrap_or(DEFAULT_CELLS * problem.cell_size);
-    Ok(Layout { outside, inside: 0.0, end: End::Fixed, layer: Some(LayerPoints::Kept) })
+    let outside = method
+        .given_number("thickness_m")
+        .unwrap_or(DEFAULT_CELLS * problem.cell_size);
+    // forced, the layer takes part in the transfer, which is what makes it grow
+    let layer = if forced { LayerPoints::Carried } else { LayerPoints::Kept };
+    Ok(Layout { outside, inside: 0.0, end: End::Fixed, layer: Some(layer) })
 }
 
 /// Reflection aimed at for a layer of so many cells: thin layers want a large one.

@@ -17,8 +17,8 @@
 use super::MaterialBlock;
 use crate::problem::Elastic;
 use crate::tensor::{
-    Matrix, Tensor4, add_scaled, contract, identity, inverse, mul, mul_transposed, skew, sym,
-    trace, zero,
+    Matrix, Tensor4, add_scaled, contract, dot, identity, inverse, mul, mul_transposed, skew, sym,
+    trace, transposed, zero,
 };
 
 /// Lamé's constants (Pa).
@@ -139,8 +139,12 @@ impl<const D: usize> MaterialBlock<D> for LinearElastic {
         Ok(())
     }
 
-    /// With dF = dA: dG = (2 I - G) dA (F + I)^-1, dQ = (I - W/2)^-1 (dW/2) (Q + I),
-    /// dtau = dQ tau Q^T + Q tau dQ^T + C : sym dG, dP = (dtau - tau' F^-T dA^T) F^-T.
+    /// With dF = dA: dG = L dA R, L = 2 I - G, R = (F + I)^-1; dQ = H (dW/2) (Q + I),
+    /// H = (I - W/2)^-1; dtau = dQ tau Q^T + Q tau dQ^T + C : sym dG;
+    /// dP = (dtau - P dA^T) F^-T.
+    ///
+    /// For dA = e_k e_l the first is the product of column k of L and row l of R, so that each
+    /// derivative is a handful of products of entries.
     fn finite_moduli(
         &self,
         increments: &[Matrix<D>],
@@ -151,29 +155,40 @@ impl<const D: usize> MaterialBlock<D> for LinearElastic {
         for ((a, s), out) in increments.iter().zip(stress).zip(moduli) {
             let x = Increment::new(a);
             let next = add_scaled(&x.rotated(s), 1.0, &self.law(&sym(&x.gradient)));
-            let next_pulled = mul_transposed(&next, &x.inverse);
+            let first = mul_transposed(&next, &x.inverse);
             let left = add_scaled(&add_scaled(&unit, 1.0, &unit), -1.0, &x.gradient);
-            let rotation_plus = add_scaled(&x.rotation, 1.0, &unit);
-            let stress_back = mul_transposed(s, &x.rotation);
+            let right = transposed(&x.mid_inverse);
+            // M^T with M = (Q + I) tau Q^T
+            let turned = mul(
+                &x.rotation,
+                &mul_transposed(s, &add_scaled(&x.rotation, 1.0, &unit)),
+            );
+            let (h_left, h_right) = (
+                mul(&x.half_spin_inverse, &left),
+                mul(&x.half_spin_inverse, &right),
+            );
+            let (m_left, m_right) = (mul(&turned, &left), mul(&turned, &right));
             for k in 0..D {
                 for l in 0..D {
-                    let mut d_a = zero::<D>();
-                    d_a[k][l] = 1.0;
-                    let d_g = mul(&left, &mul(&d_a, &x.mid_inverse));
-                    let d_spin = skew(&d_g);
-                    let d_q = mul(&x.half_spin_inverse, &mul(&d_spin, &rotation_plus));
-                    let turned = mul(&d_q, &stress_back);
-                    let mut d_tau = self.law(&sym(&d_g));
+                    let mut d_tau = zero::<D>();
+                    let mut d_volume = 0.0;
                     for i in 0..D {
+                        d_volume += left[i][k] * right[i][l];
                         for j in 0..D {
-                            d_tau[i][j] += 0.5 * (turned[i][j] + turned[j][i]);
+                            let strain = left[i][k] * right[j][l] + left[j][k] * right[i][l];
+                            let spin = h_left[i][k] * m_right[j][l] - h_right[i][l] * m_left[j][k]
+                                + h_left[j][k] * m_right[i][l]
+                                - h_right[j][l] * m_left[i][k];
+                            d_tau[i][j] = self.shear * strain + 0.25 * spin;
                         }
                     }
-                    let drop = mul_transposed(&next_pulled, &d_a);
-                    let d_p = mul_transposed(&add_scaled(&d_tau, -1.0, &drop), &x.inverse);
+                    for i in 0..D {
+                        d_tau[i][i] += self.lambda * d_volume;
+                        d_tau[i][k] -= first[i][l];
+                    }
                     for i in 0..D {
                         for j in 0..D {
-                            out[i][j][k][l] = d_p[i][j];
+                            out[i][j][k][l] = dot(&d_tau[i], &x.inverse[j]);
                         }
                     }
                 }

@@ -126,6 +126,8 @@ pub struct Carried<const D: usize> {
     finite: bool,
     /// Cauchy (small strain) or Kirchhoff stress (Pa).
     stress: Vec<Matrix<D>>,
+    /// The same at the end of the trial step whose force was asked for last.
+    next: Vec<Matrix<D>>,
 }
 
 impl<const D: usize> Carried<D> {
@@ -136,6 +138,7 @@ impl<const D: usize> Carried<D> {
             range,
             material,
             finite,
+            next: stress.clone(),
             stress,
         }
     }
@@ -182,14 +185,21 @@ impl<const D: usize> RegionKernel<D> for Carried<D> {
     }
 
     fn force(&mut self, trial: &Trial<'_, D>, out: &mut [Vector<D>]) -> Result<(), SolverError> {
-        let (mut next, mut first) = ([zero::<D>(); BLOCK], [zero::<D>(); BLOCK]);
+        let mut first = [zero::<D>(); BLOCK];
+        let mut next = std::mem::take(&mut self.next);
+        let mut result = Ok(());
         for block in blocks(self.range.clone()) {
             let n = block.len();
-            self.trial_stress(trial, &block, &mut next[..n], &mut first[..n])?;
+            let own = self.own(&block);
+            result = self.trial_stress(trial, &block, &mut next[own], &mut first[..n]);
+            if result.is_err() {
+                break;
+            }
             let volumes = &trial.points.volume[block.clone()];
             trial.disc.scatter_stress(block, volumes, &first[..n], out);
         }
-        Ok(())
+        self.next = next;
+        result
     }
 
     fn tangent(&mut self, trial: &Trial<'_, D>, out: &mut BlockMatrix<D>) {
@@ -213,13 +223,17 @@ impl<const D: usize> RegionKernel<D> for Carried<D> {
     }
 
     fn commit(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError> {
-        let (mut next, mut first) = ([zero::<D>(); BLOCK], [zero::<D>(); BLOCK]);
-        for block in blocks(self.range.clone()) {
-            let n = block.len();
-            self.trial_stress(trial, &block, &mut next[..n], &mut first[..n])?;
-            let own = self.own(&block);
-            self.stress[own].copy_from_slice(&next[..n]);
+        if !self.finite {
+            // a linear step is accepted without a second look at its forces
+            let mut first = [zero::<D>(); BLOCK];
+            let mut next = std::mem::take(&mut self.next);
+            for block in blocks(self.range.clone()) {
+                let own = self.own(&block);
+                self.trial_stress(trial, &block, &mut next[own], &mut first[..block.len()])?;
+            }
+            self.next = next;
         }
+        std::mem::swap(&mut self.stress, &mut self.next);
         Ok(())
     }
 
@@ -246,6 +260,6 @@ impl<const D: usize> RegionKernel<D> for Carried<D> {
     }
 
     fn bytes_per_point(&self) -> usize {
-        size_of::<Matrix<D>>()
+        2 * size_of::<Matrix<D>>()
     }
 }

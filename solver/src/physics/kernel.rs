@@ -96,7 +96,8 @@ pub trait RegionKernel<const D: usize>: Send {
     /// Adds the derivative of the internal force with respect to the increment.
     fn tangent(&mut self, trial: &Trial<'_, D>, out: &mut BlockMatrix<D>);
 
-    /// Accepts the trial state: stress and memory move on.
+    /// Accepts the trial state: stress and memory move on. Where the tangent varies, it is the state
+    /// whose force was asked for last.
     ///
     /// # Errors
     /// An inverted point.

@@ -131,10 +131,6 @@ impl<const D: usize> Model<D> {
             Some(_) => KeptNodes::touched(disc.as_ref(), &points, parts.first_kept),
             None => KeptNodes::default(),
         };
-        let mut resting = Lumped::zeros(n);
-        for region in regions.iter().filter(|r| r.range.start >= parts.first_kept) {
-            region.kernel.lump(disc.as_ref(), &points, &mut resting);
-        }
         let mut model = Model {
             matrices: Matrices::new(&mut regions, disc.as_ref(), &points),
             nodes: Nodes {
@@ -151,7 +147,7 @@ impl<const D: usize> Model<D> {
             movable: parts.movable.unwrap_or(0),
             replaced_displacement: parts.replaced_displacement,
             kept,
-            resting,
+            resting: Lumped::default(),
             first_kept: parts.first_kept,
             grid,
             disc,
@@ -164,8 +160,34 @@ impl<const D: usize> Model<D> {
             moment,
             dt: 0.0,
         };
+        model.resting = model.lumped_at_rest();
         model.lump();
         Ok(model)
+    }
+
+    /// Adds a region of points at rest with its kernel, or puts it in place of one that was taken out.
+    pub fn add_layer(&mut self, kernel: Box<dyn RegionKernel<D>>, range: Range<usize>) {
+        self.regions.push(Region {
+            range,
+            in_target: false,
+            kernel,
+        });
+        self.resting = self.lumped_at_rest();
+        self.lump();
+    }
+
+    fn lumped_at_rest(&self) -> Lumped<D> {
+        let mut resting = Lumped::zeros(self.grid.node_count());
+        for region in self
+            .regions
+            .iter()
+            .filter(|r| r.range.start >= self.first_kept)
+        {
+            region
+                .kernel
+                .lump(self.disc.as_ref(), &self.points, &mut resting);
+        }
+        resting
     }
 
     /// Gathers masses and damping of the nodes.

@@ -89,7 +89,8 @@ pub trait System<const D: usize> {
     /// Where a nodal field is largest (m).
     fn place_of_largest(&self, field: &[Vector<D>]) -> Vec<f64>;
 
-    /// Accepts the state at the end of the step.
+    /// Accepts the state at the end of the step; unless the system is linear it is the one whose
+    /// residual was asked for last.
     ///
     /// # Errors
     /// A point that is inverted or leaves the grid.
