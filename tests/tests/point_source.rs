@@ -28,22 +28,27 @@ fn gate(method: &str, sets: &[&str]) -> Prepared {
         sets: sets.iter().map(|set| (*set).to_owned()).collect(),
         ..Request::default()
     };
-    let target = Target::find(&request).unwrap();
-    target.prepare(Some(method)).unwrap()
+    let target = Target::find(&request).expect("the case exists");
+    target.prepare(Some(method)).expect("the scene is well put")
 }
 
 fn extended() -> Problem<2> {
-    gate("fixed", &[]).scene.extended().unwrap()
+    gate("fixed", &[])
+        .scene
+        .extended()
+        .expect("it has no closed form")
 }
 
 fn shipped() -> Certified {
-    let found = Library::shipped().find(CASE, &extended()).unwrap();
+    let found = Library::shipped()
+        .find(CASE, &extended())
+        .expect("it is whole");
     found.expect("the gate's reference comes with the program")
 }
 
 /// The gate's comparison of standard run and `methods`, and whether it computed a reference.
 fn compared(methods: &[&str], sets: &[&str]) -> (Finished, bool) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a temporary folder");
     let mut options = Options::new(CASE, folder.path())
         .profile("gate")
         .method("fixed");
@@ -53,7 +58,7 @@ fn compared(methods: &[&str], sets: &[&str]) -> (Finished, bool) {
     for set in sets {
         options = options.set(set);
     }
-    let finished = compare(&options).unwrap();
+    let finished = compare(&options).expect("the comparison runs");
     (finished, folder.path().join("certified").exists())
 }
 

@@ -216,6 +216,9 @@ fn bars(ranking: &Ranking) -> Result<Option<Picture>, PictureError> {
     }))
 }
 
+/// Energies grow by less than this (1/s) through rounding and the solver's tolerance.
+const ROUNDING_GROWTH: f64 = 1e-6;
+
 /// What each variant of a method leaves, in the order of the study: echo, and energy that stays.
 fn parts(runs: &[&Run], ranking: &Ranking) -> Result<Option<Picture>, PictureError> {
     let ranked = |run: &Run| {
@@ -234,10 +237,12 @@ fn parts(runs: &[&Run], ranking: &Ranking) -> Result<Option<Picture>, PictureErr
         let t1 = run.prepared.scene.windows().first()?.from_s;
         energy_left(&energy.times, &target_energy(energy).ok()?, t1).ok()
     };
+    // Only growth that the rest of the run does not explain away; what decays has no bar.
     let growth = |run: &Run| -> Option<f64> {
         let energy = &run.record.energy;
         let slope = growth_rate_per_s(&energy.times, energy.column("total")?).ok()?;
-        Some(slope.value)
+        let sure = slope.interval.is_some_and(|[low, _]| low > ROUNDING_GROWTH);
+        sure.then_some(slope.value)
     };
     let drawing = BarPlot {
         methods: shown.iter().map(|(_, m)| m.method.clone()).collect(),
@@ -265,7 +270,7 @@ fn parts(runs: &[&Run], ranking: &Ranking) -> Result<Option<Picture>, PictureErr
     Ok(Some(Picture {
         name: "ablation",
         title: "What each part absorbs",
-        caption: "Echo ratio of each variant (log axis; one is a fixed edge), the energy left in the target after t1, and how fast the total energy grows in the second half of the run.".into(),
+        caption: "Echo ratio of each variant (log axis; one is a fixed edge), the energy left in the target after t1, and how fast the total energy grows in the second half of the run, where it does.".into(),
         drawing,
         raster: false,
     }))
