@@ -4,7 +4,6 @@
 //! before the end. Their scene is small (800 x 600 m, 3 s) and its metric is stricter than the
 //! scene's: the difference over the whole run, the worst receiver.
 
-#![allow(clippy::unwrap_used, reason = "a gate fails by panicking")]
 #![allow(
     clippy::unwrap_used,
     reason = "a gate that cannot be set up has failed"

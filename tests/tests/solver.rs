@@ -3,7 +3,6 @@
 //! Every gate is analytic: the exact value follows from mechanics, the bound from rounding or from
 //! the order of the scheme.
 
-#![allow(clippy::unwrap_used, reason = "a gate fails by panicking")]
 #![allow(
     clippy::unwrap_used,
     reason = "a gate that cannot be set up has failed"
