@@ -12,6 +12,7 @@ Examples:
   anechoic run compression-1d --method dashpot --set grid.h_m=0.5
   anechoic show compression-1d --toml > my.toml       edit it, then:
   anechoic run my.toml
+  anechoic ablation point-source                      what each part of a method absorbs
   anechoic report results                             rebuild the report from records
 
 Exit codes: 0 pass, 1 a claim failed, 2 usage or input (an output folder that cannot be

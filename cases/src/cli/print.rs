@@ -46,6 +46,7 @@ Type next:
   anechoic list                      cases and methods
   anechoic show compression-1d       a scene and what it will cost
   anechoic compare compression-1d    solve it with all methods and rank them
+  anechoic compare point-source      the headline case: about two minutes
   anechoic --help                    all commands, with examples
 "
     .to_owned()
