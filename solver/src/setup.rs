@@ -151,8 +151,7 @@ fn check_size<const D: usize>(
         .map(|a| (material.upper[a] - material.lower[a]) / h[a])
         .product();
     let points = cells * problem.points_per_cell as f64;
-    // written so that NaN is refused
-    if !(points <= MOST_POINTS) {
+    if points.is_nan() || points > MOST_POINTS {
         let reason = format!(
             "cells of {} m make {points:.1e} points of body and layers, more than {MOST_POINTS:.0e}",
             problem.cell_size
@@ -160,7 +159,7 @@ fn check_size<const D: usize>(
         return Err(setup_error("grid.h_m", reason));
     }
     let steps = problem.end_time / problem.dt;
-    if !(steps <= MOST_STEPS) {
+    if steps.is_nan() || steps > MOST_STEPS {
         let reason = format!("{steps:.1e} steps to the end, more than {MOST_STEPS:.0e}");
         return Err(setup_error("time.dt_s", reason));
     }
