@@ -14,9 +14,6 @@ pub struct Checks<'a> {
     complaints: Vec<Complaint>,
 }
 
-/// Relative slack in which a length counts as a multiple of the cell.
-const WHOLE: f64 = 1e-9;
-
 impl<'a> Checks<'a> {
     /// Checks of values that come from `origins`.
     pub fn new(origins: &'a Origins) -> Self {
@@ -40,18 +37,6 @@ impl<'a> Checks<'a> {
                 message: message(),
             });
         }
-    }
-
-    /// A length that must consist of whole cells.
-    pub fn whole_cells(&mut self, field: &str, length: f64, h: f64) {
-        let cells = length / h;
-        let rounded = cells.round().max(1.0);
-        self.require((cells - rounded).abs() <= WHOLE * rounded, field, || {
-            format!(
-                "{length} m is not a multiple of the cell (grid.h_m = {h} m); nearest: {} m",
-                rounded * h
-            )
-        });
     }
 
     /// Points in a cell and how they exchange motion with the nodes.
@@ -111,14 +96,11 @@ impl<'a> Checks<'a> {
         });
     }
 
-    /// Layers of whole cells that leave something of the body, whose size is given (m).
-    pub fn layers(&mut self, boundary: &BoundarySpec, size: [f64; 2], h: f64) {
+    /// Layers that leave something of the body, whose size is given (m).
+    pub fn layers(&mut self, boundary: &BoundarySpec, size: [f64; 2]) {
         for (index, (side, method)) in boundary.named().into_iter().enumerate() {
             let axis = index / 2;
             let field = format!("boundary.{side}.thickness_m");
-            if let Some(thickness) = number(method, "thickness_m") {
-                self.whole_cells(&field, thickness, h);
-            }
             let opposite = boundary.named()[index ^ 1].1;
             let (inner, other) = (inner_thickness(method), inner_thickness(opposite));
             self.require(inner == 0.0 || inner + other < size[axis], &field, || {

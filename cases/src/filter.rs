@@ -14,6 +14,8 @@ const METRICS: &[&str] = &[
     "peak_deviation",
     "arrival_s",
     "energy_left",
+    "growth_rate_per_s",
+    "serves_until_s",
     "cpu_s",
     "wall_s",
     "peak_bytes",

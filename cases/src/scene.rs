@@ -48,6 +48,12 @@ pub trait Scene: Debug + Send + Sync {
 
     /// What is claimed of the methods.
     fn claims(&self) -> Vec<SceneClaim>;
+
+    /// Until when (s) no wave can have come back from the outer end of an extended domain, so that
+    /// the record of this scene certifies others; `None` when it has no such domain.
+    fn serves_until_s(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// The time in which a receiver's echo is looked for.

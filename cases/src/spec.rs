@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Background grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GridSpec {
-    /// Edge length of a cell (m).
+    /// Largest edge of a cell (m); cells are made to fit the body.
     pub h_m: f64,
 }
 
@@ -177,7 +177,7 @@ pub const NUMERICS: &[Field] = &[
     Field::new(
         "grid.h_m",
         Kind::Number(Range::POSITIVE),
-        "edge length of a cell (m)",
+        "largest edge of a cell (m); cells are fitted to the body",
     ),
     Field::new(
         "time.scheme",
@@ -223,16 +223,8 @@ pub const NUMERICS: &[Field] = &[
 
 /// Fields of a rectangular body.
 pub const BODY: &[Field] = &[
-    Field::new(
-        "body.width_m",
-        Kind::Number(Range::POSITIVE),
-        "width (m): whole cells",
-    ),
-    Field::new(
-        "body.height_m",
-        Kind::Number(Range::POSITIVE),
-        "height (m): whole cells",
-    ),
+    Field::new("body.width_m", Kind::Number(Range::POSITIVE), "width (m)"),
+    Field::new("body.height_m", Kind::Number(Range::POSITIVE), "height (m)"),
 ];
 
 /// Fields of a linear elastic material.

@@ -204,7 +204,8 @@ fn rank(rows: &[Row]) -> Ranking {
     let floor = certified.or_else(|| {
         floor_of(&methods, "extended").map(|value| Floor {
             value,
-            how: "what the extended domain leaves on the same mesh: dispersion alone".into(),
+            how: "what the extended domain leaves on the same mesh: the discretisation alone"
+                .into(),
         })
     });
     Ranking::from_rows(&methods, RANKED_BY, floor)

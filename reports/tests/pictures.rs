@@ -174,6 +174,7 @@ fn space_time() -> SpaceTimePlot {
     let guide = |position, label: &str| Guide {
         position,
         label: label.to_owned(),
+        method: None,
     };
     SpaceTimePlot {
         quantity: "velocity".to_owned(),

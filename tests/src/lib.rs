@@ -1,4 +1,8 @@
-//! What the gates share: small problems, and a monitor that lets them run.
+//! What the gates share: small problems with a monitor that lets them run, comparisons through the
+//! library ([`study`]), the program as it is typed ([`program`]).
+
+pub mod program;
+pub mod study;
 
 pub mod twin;
 

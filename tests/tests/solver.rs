@@ -3,6 +3,11 @@
 //! Every gate is analytic: the exact value follows from mechanics, the bound from rounding or from
 //! the order of the scheme.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "a gate that cannot be set up has failed"
+)]
+
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::linear::Moment;
 use anechoic_solver::physics::model::Model;

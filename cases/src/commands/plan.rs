@@ -3,9 +3,11 @@
 use super::Options;
 use crate::error::{CaseError, Complaint};
 use crate::filter::Filter;
+use crate::judge::CERTIFIER;
 use crate::prepare::{Prepared, Target};
 use crate::scene::SceneInfo;
 use crate::scenes::SCENES;
+use anechoic_reference::claim::Evidence;
 use anechoic_reports::norms::{group_of, group_worst};
 
 /// Scenes ready to run.
@@ -70,8 +72,18 @@ impl Plan {
         if let Some(filter) = &filter {
             let any = target.prepare(None)?;
             let chosen = filter.methods(&names, &places(&any))?;
-            // Ratios need the standard run.
-            names.retain(|name| chosen.contains(name) || *name == target.info.standard);
+            // Ratios need the standard run. Certified claims need the extended one, unless the scene
+            // has a reference that is stored.
+            let certified = any.scene.extended().is_none()
+                && any.scene.claims().iter().any(|claim| {
+                    claim.claim.evidence == Evidence::Certified
+                        && chosen.contains(&claim.claim.method.as_str())
+                });
+            names.retain(|name| {
+                chosen.contains(name)
+                    || *name == target.info.standard
+                    || (certified && *name == CERTIFIER)
+            });
         }
         let (mut scenes, mut left_out) = (Vec::new(), Vec::new());
         for name in names {

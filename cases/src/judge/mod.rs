@@ -1,8 +1,11 @@
 //! From runs to rows: every metric that applies, against every reference that the scene gives.
 
 mod arrivals;
+mod certified;
 mod papers;
 pub mod references;
+
+pub use certified::CERTIFIER;
 
 use crate::certified::Certified;
 use crate::runner::Run;
@@ -35,11 +38,14 @@ pub struct Judged {
 
 /// Judges runs of one study; ratios are taken over the run of the scene's standard method.
 pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
+    let extended = certified::certifier(runs);
     let mut judged = Judged::default();
     for (index, run) in runs.iter().enumerate() {
         let mut numbers = cost_measurements(&run.manifest.method, &run.record.cost);
         let obstacle = match &run.record.status {
             Status::Complete => {
+                let missing = certified::measure(run, extended, &mut numbers).err();
+                judged.reference_missing = judged.reference_missing.or(missing);
                 let standard = standard_of(run, runs);
                 measure(run, references, standard, index == 0, &mut numbers)
             }

@@ -1,6 +1,7 @@
 //! Pictures of fields: over place and time, and at some times.
 
 use super::{NO_ECHO, Picture, PictureError, receivers};
+use crate::checks::inner_thickness;
 use crate::judge::references::References;
 use crate::runner::Run;
 use anechoic_reports::plot::{Corners, Field, Guide, PlotError, SnapshotPlot, SpaceTimePlot};
@@ -27,10 +28,23 @@ pub(super) fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError>
         return Ok(None);
     };
     let quantity = format!("velocity {}", field.name.trim_start_matches('v'));
-    let guides = receivers(runs[0])
+    let mut guides: Vec<Guide> = receivers(runs[0])
         .into_iter()
-        .map(|(label, [_, y])| Guide { position: y, label })
+        .map(|(label, [_, y])| Guide {
+            position: y,
+            label,
+            method: None,
+        })
         .collect();
+    // The edge of a layer that damps part of the body itself.
+    guides.extend(runs.iter().filter_map(|run| {
+        let thickness = inner_thickness(&run.prepared.scene.boundary().bottom);
+        (thickness > 0.0).then(|| Guide {
+            position: run.prepared.scene.problem().target.lower[1] + thickness,
+            label: "layer".into(),
+            method: Some(run.manifest.method.clone()),
+        })
+    }));
     let drawing = SpaceTimePlot {
         quantity,
         fields,
@@ -41,7 +55,7 @@ pub(super) fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError>
     Ok(Some(Picture {
         name: "space-time",
         title: "Waves in space and time",
-        caption: "Waves are slanted bands; a band that turns round at the base is echo. All methods share one scale.".into(),
+        caption: "Waves are slanted bands; a band that turns round at the base is echo. Dashed: receivers, and the upper edge of a layer inside the body. All methods share one scale.".into(),
         drawing,
         raster: true,
     }))

@@ -206,7 +206,7 @@ impl Scene for PointSource {
     }
 
     fn check(&self, checks: &mut Checks<'_>) {
-        let (body, h) = (self.body(), self.grid.h_m);
+        let body = self.body();
         let size = [0, 1].map(|a| body.upper[a] - body.lower[a]);
         checks.require(size[0] > 0.0, "target.x_max_m", || {
             format!(
@@ -214,9 +214,7 @@ impl Scene for PointSource {
                 body.upper[0], body.lower[0]
             )
         });
-        checks.whole_cells("target.x_max_m", size[0], h);
-        checks.whole_cells("target.depth_m", size[1], h);
-        checks.layers(&self.boundary, size, h);
+        checks.layers(&self.boundary, size);
         checks.points(&self.points);
         checks.receivers(&self.receivers, &body);
         checks.inside("source.x_m", "the source", self.source.x_m, &body, 0);

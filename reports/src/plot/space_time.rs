@@ -26,6 +26,8 @@ pub struct Guide {
     pub position: f64,
     /// What lies there.
     pub label: String,
+    /// The method in whose panel alone it is drawn; `None`: in all.
+    pub method: Option<String>,
 }
 
 /// Space-time pictures of several methods with one scale.
@@ -64,7 +66,7 @@ impl SpaceTimePlot {
                 y: range(self.fields.iter().flat_map(|(_, f)| &f.positions), 6.0),
             };
             draw_field(&mut drawing, &panel, field, &colours);
-            self.draw_guides(&mut drawing, &panel)?;
+            self.draw_guides(&mut drawing, &panel, method)?;
             panel.frame(&mut drawing, true, column == 0);
             panel.headline(&mut drawing, method);
             if i + across >= self.fields.len() {
@@ -116,8 +118,14 @@ impl SpaceTimePlot {
         if limit > 0.0 { limit } else { 1.0 }
     }
 
-    fn draw_guides(&self, drawing: &mut Drawing, panel: &Panel) -> Result<(), PlotError> {
-        for guide in &self.guides {
+    fn draw_guides(
+        &self,
+        drawing: &mut Drawing,
+        panel: &Panel,
+        method: &str,
+    ) -> Result<(), PlotError> {
+        let here = |guide: &&Guide| guide.method.as_deref().is_none_or(|m| m == method);
+        for guide in self.guides.iter().filter(here) {
             let y = panel.at(0.0, guide.position).1;
             let stroke = Stroke::dashed(palette::SOFT, 0.8);
             drawing.line((panel.left, y), (panel.right(), y), stroke);

@@ -22,17 +22,32 @@ pub static METHOD: MethodInfo = MethodInfo {
         Param {
             name: "thickness_m",
             doc: "thickness L of the layer",
-            kind: ParamKind::Number { unit: "m", default: None, min: 1e-9, max: 1e9 },
+            kind: ParamKind::Number {
+                unit: "m",
+                default: None,
+                min: 1e-9,
+                max: 1e9,
+            },
         },
         Param {
             name: "sigma_max_per_s",
             doc: "damping rate at the outer end",
-            kind: ParamKind::Number { unit: "1/s", default: Some(12.0), min: 0.0, max: 1e9 },
+            kind: ParamKind::Number {
+                unit: "1/s",
+                default: Some(12.0),
+                min: 0.0,
+                max: 1e9,
+            },
         },
         Param {
             name: "power",
             doc: "power p of the profile",
-            kind: ParamKind::Number { unit: "1", default: Some(2.0), min: 0.0, max: 10.0 },
+            kind: ParamKind::Number {
+                unit: "1",
+                default: Some(2.0),
+                min: 0.0,
+                max: 10.0,
+            },
         },
         Param {
             name: "placement",
@@ -65,7 +80,12 @@ pub(crate) fn layout<const D: usize>(
         _ => End::Fixed,
     };
     if method.choice(&METHOD, "placement") == "outside" {
-        return Ok(Layout { outside: thickness, inside: 0.0, end, layer: None });
+        return Ok(Layout {
+            outside: thickness,
+            inside: 0.0,
+            end,
+            layer: None,
+        });
     }
     let depth = problem.target.upper[side.axis] - problem.target.lower[side.axis];
     if thickness > depth {
@@ -74,7 +94,12 @@ pub(crate) fn layout<const D: usize>(
             reason: format!("a layer of {thickness} m does not fit inside a body of {depth} m"),
         });
     }
-    Ok(Layout { outside: 0.0, inside: thickness, end, layer: None })
+    Ok(Layout {
+        outside: 0.0,
+        inside: thickness,
+        end,
+        layer: None,
+    })
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
@@ -84,11 +109,19 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
         let thickness = layout.outside + layout.inside;
         let largest = assigned.method.number(&METHOD, "sigma_max_per_s");
         let power = assigned.method.number(&METHOD, "power");
-        let inwards = if side.upper { -layout.inside } else { layout.inside };
+        let inwards = if side.upper {
+            -layout.inside
+        } else {
+            layout.inside
+        };
         let inner_edge = context.plane(side) + inwards;
         for (node, rate) in rate.iter_mut().enumerate() {
             let x = context.grid.node_place(node)[side.axis];
-            let depth = if side.upper { x - inner_edge } else { inner_edge - x };
+            let depth = if side.upper {
+                x - inner_edge
+            } else {
+                inner_edge - x
+            };
             if depth > 0.0 {
                 let here = largest * (depth / thickness).min(1.0).powf(power);
                 // the larger in size, so that a layer of negative rate feeds energy in and is found out

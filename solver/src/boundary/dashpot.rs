@@ -26,7 +26,12 @@ pub static METHOD: MethodInfo = MethodInfo {
     params: &[Param {
         name: "impedance",
         doc: "share of the material's impedance that the dashpots have",
-        kind: ParamKind::Number { unit: "1", default: Some(1.0), min: 0.0, max: 1e6 },
+        kind: ParamKind::Number {
+            unit: "1",
+            default: Some(1.0),
+            min: 0.0,
+            max: 1e6,
+        },
     }],
 };
 
@@ -46,13 +51,21 @@ pub(crate) fn layout<const D: usize>(
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
-    let (density, cp, cs) = (context.material.density, context.material.p_speed(), context.material.s_speed());
+    let (density, cp, cs) = (
+        context.material.density,
+        context.material.p_speed(),
+        context.material.s_speed(),
+    );
     let terms = context.sides.iter().map(|assigned| {
         let share = assigned.method.number(&METHOD, "impedance");
         let mut impedance = [share * density * cs; D];
         impedance[assigned.side.axis] = share * density * cp;
         let surface = Surface::new(context, assigned.side);
-        Box::new(Dashpot { surface, impedance, moving: context.moving }) as Box<dyn NodeTerm<D>>
+        Box::new(Dashpot {
+            surface,
+            impedance,
+            moving: context.moving,
+        }) as Box<dyn NodeTerm<D>>
     });
     Ok(Parts::of_terms(terms.collect()))
 }
@@ -88,7 +101,13 @@ impl<const D: usize> NodeTerm<D> for Dashpot<D> {
     fn tangent(&self, rate: f64, active: &[bool], out: &mut BlockMatrix<D>) {
         for sample in &self.surface.samples {
             let total = sample.active_weight(active);
-            let seen = || sample.nodes.iter().zip(&sample.weights).filter(|(n, _)| active[**n as usize]);
+            let seen = || {
+                sample
+                    .nodes
+                    .iter()
+                    .zip(&sample.weights)
+                    .filter(|(n, _)| active[**n as usize])
+            };
             for (&row, wi) in seen() {
                 for (&column, wj) in seen() {
                     let factor = rate * self.surface.area * wi * wj / (total * total);
@@ -108,6 +127,10 @@ impl<const D: usize> NodeTerm<D> for Dashpot<D> {
         increment: &[Vector<D>],
         active: &[bool],
     ) -> Result<(), Vector<D>> {
-        if self.moving { self.surface.advance(disc, increment, active) } else { Ok(()) }
+        if self.moving {
+            self.surface.advance(disc, increment, active)
+        } else {
+            Ok(())
+        }
     }
 }

@@ -15,7 +15,12 @@ pub static METHOD: MethodInfo = MethodInfo {
     params: &[Param {
         name: "thickness_m",
         doc: "material added; by default as much as the fastest wave needs not to come back before the end",
-        kind: ParamKind::Number { unit: "m", default: None, min: 1e-9, max: 1e9 },
+        kind: ParamKind::Number {
+            unit: "m",
+            default: None,
+            min: 1e-9,
+            max: 1e9,
+        },
     }],
 };
 
@@ -27,11 +32,20 @@ pub(crate) fn layout<const D: usize>(
     _side: Side,
     method: &SideMethod,
 ) -> Result<Layout, SolverError> {
-    let outside = method.given_number("thickness_m").unwrap_or_else(|| {
+    Ok(Layout {
+        outside: thickness(problem, method),
+        inside: 0.0,
+        end: End::Fixed,
+        layer: None,
+    })
+}
+
+/// Material added (m), before it is rounded up to whole cells.
+pub fn thickness<const D: usize>(problem: &Problem<D>, method: &SideMethod) -> f64 {
+    method.given_number("thickness_m").unwrap_or_else(|| {
         let needed = 0.5 * problem.material.p_speed() * problem.end_time;
         needed + CELLS_AHEAD * problem.cell_size
-    });
-    Ok(Layout { outside, inside: 0.0, end: End::Fixed, layer: None })
+    })
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {

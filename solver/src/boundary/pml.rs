@@ -36,12 +36,22 @@ pub static METHOD: MethodInfo = MethodInfo {
         Param {
             name: "thickness_m",
             doc: "thickness L; by default 10 cells",
-            kind: ParamKind::Number { unit: "m", default: None, min: 1e-9, max: 1e9 },
+            kind: ParamKind::Number {
+                unit: "m",
+                default: None,
+                min: 1e-9,
+                max: 1e9,
+            },
         },
         Param {
             name: "reflection",
             doc: "reflection R aimed at head-on; by default 1e-3, 1e-4, 1e-6, 1e-8 at 5, 10, 20, 50 cells",
-            kind: ParamKind::Number { unit: "1", default: None, min: 1e-300, max: 0.999 },
+            kind: ParamKind::Number {
+                unit: "1",
+                default: None,
+                min: 1e-300,
+                max: 0.999,
+            },
         },
         Param {
             name: "with_flip",
@@ -60,13 +70,18 @@ pub(crate) fn layout<const D: usize>(
 ) -> Result<Layout, SolverError> {
     let refuse = |reason: &str| {
         let field = format!("boundary.{}.method", side.name());
-        Err(SolverError::Setup { field, reason: reason.to_owned() })
+        Err(SolverError::Setup {
+            field,
+            reason: reason.to_owned(),
+        })
     };
     if D != 2 {
         return refuse("the implicit perfectly matched layer is two-dimensional");
     }
     if problem.scheme == Scheme::QuasiStatic {
-        return refuse("a perfectly matched layer absorbs waves; use fixed or roller with quasi-static");
+        return refuse(
+            "a perfectly matched layer absorbs waves; use fixed or roller with quasi-static",
+        );
     }
     let flip = problem.transfer == Transfer::Flip;
     let forced = flip && method.choice(&METHOD, "with_flip") == "force";
@@ -79,8 +94,17 @@ pub(crate) fn layout<const D: usize>(
         .given_number("thickness_m")
         .unwrap_or(DEFAULT_CELLS * problem.cell_size);
     // forced, the layer takes part in the transfer, which is what makes it grow
-    let layer = if forced { LayerPoints::Carried } else { LayerPoints::Kept };
-    Ok(Layout { outside, inside: 0.0, end: End::Fixed, layer: Some(layer) })
+    let layer = if forced {
+        LayerPoints::Carried
+    } else {
+        LayerPoints::Kept
+    };
+    Ok(Layout {
+        outside,
+        inside: 0.0,
+        end: End::Fixed,
+        layer: Some(layer),
+    })
 }
 
 /// Reflection aimed at for a layer of so many cells: thin layers want a large one.
@@ -97,7 +121,10 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
     let strength = |a: &Assigned| {
         let thickness = a.layout.outside;
         let cells = thickness / context.grid.h[a.side.axis];
-        let r = a.method.given_number("reflection").unwrap_or(default_reflection(cells));
+        let r = a
+            .method
+            .given_number("reflection")
+            .unwrap_or(default_reflection(cells));
         1.5 * speed * (1.0 / r).ln() / thickness
     };
     let places = &context.points.place[context.layer.clone()];
@@ -114,7 +141,10 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
         gradient: vec![zero(); n],
         memory: vec![zero(); n],
     };
-    Ok(Parts { kernel: Some(Box::new(kernel)), ..Parts::of_terms(walls(context)) })
+    Ok(Parts {
+        kernel: Some(Box::new(kernel)),
+        ..Parts::of_terms(walls(context))
+    })
 }
 
 /// The layer's points.
@@ -190,8 +220,10 @@ fn lump_with<const D: usize>(
     out: &mut [Vector<D>],
 ) {
     for block in blocks(range.clone()) {
-        let values: Vec<Vector<D>> =
-            block.clone().map(|p| [factor(p - range.start); D]).collect();
+        let values: Vec<Vector<D>> = block
+            .clone()
+            .map(|p| [factor(p - range.start); D])
+            .collect();
         disc.scatter_vector(block.clone(), &points.mass[block], &values, out);
     }
 }
@@ -293,8 +325,17 @@ mod tests {
 
     #[test]
     fn default_reflections_are_those_of_the_table() {
-        for (cells, r) in [(2.0, 1e-3), (5.0, 1e-3), (10.0, 1e-4), (20.0, 1e-6), (50.0, 1e-8)] {
-            assert!((default_reflection(cells) / r - 1.0).abs() < 1e-12, "{cells}");
+        for (cells, r) in [
+            (2.0, 1e-3),
+            (5.0, 1e-3),
+            (10.0, 1e-4),
+            (20.0, 1e-6),
+            (50.0, 1e-8),
+        ] {
+            assert!(
+                (default_reflection(cells) / r - 1.0).abs() < 1e-12,
+                "{cells}"
+            );
         }
         assert!(default_reflection(15.0) < 1e-4 && default_reflection(15.0) > 1e-6);
     }

@@ -20,9 +20,7 @@
 
 use super::layer::{by_axis, relative_depth};
 use super::params::{MethodInfo, Param, ParamKind, SideMethod};
-use super::{
-    Context, DisplacementTransfer, End, LayerPoints, Layout, Parts, walls,
-};
+use super::{Context, DisplacementTransfer, End, LayerPoints, Layout, Parts, walls};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
 use crate::linear::block_matrix::BlockMatrix;
@@ -42,7 +40,16 @@ const fn number(
     default: f64,
     max: f64,
 ) -> Param {
-    Param { name, doc, kind: ParamKind::Number { unit, default: Some(default), min: 0.0, max } }
+    Param {
+        name,
+        doc,
+        kind: ParamKind::Number {
+            unit,
+            default: Some(default),
+            min: 0.0,
+            max,
+        },
+    }
 }
 
 /// The method's entry.
@@ -53,14 +60,49 @@ pub static METHOD: MethodInfo = MethodInfo {
         Param {
             name: "thickness_m",
             doc: "thickness L; by default 50 cells",
-            kind: ParamKind::Number { unit: "m", default: None, min: 1e-9, max: 1e9 },
+            kind: ParamKind::Number {
+                unit: "m",
+                default: None,
+                min: 1e-9,
+                max: 1e9,
+            },
         },
-        number("alpha", "largest stretch C' at the outer edge; 0: no stretch", "1", 4.0, 1e6),
+        number(
+            "alpha",
+            "largest stretch C' at the outer edge; 0: no stretch",
+            "1",
+            4.0,
+            1e6,
+        ),
         number("beta", "power of the stretch's profile", "1", 1.0, 10.0),
-        number("rayleigh_per_s", "mass-proportional damping alpha_M; 0: none", "1/s", 1.0, 1e6),
-        number("relaxed_modulus_ratio", "E_0/E of the viscoelastic model; 1: elastic", "1", 0.99, 1.0),
-        number("fractional_order", "order of the fractional derivative", "1", 0.95, 1.0),
-        number("relaxation_steps", "relaxation time tau over the time step", "1", 2.0, 1e6),
+        number(
+            "rayleigh_per_s",
+            "mass-proportional damping alpha_M; 0: none",
+            "1/s",
+            1.0,
+            1e6,
+        ),
+        number(
+            "relaxed_modulus_ratio",
+            "E_0/E of the viscoelastic model; 1: elastic",
+            "1",
+            0.99,
+            1.0,
+        ),
+        number(
+            "fractional_order",
+            "order of the fractional derivative",
+            "1",
+            0.95,
+            1.0,
+        ),
+        number(
+            "relaxation_steps",
+            "relaxation time tau over the time step",
+            "1",
+            2.0,
+            1e6,
+        ),
         Param {
             name: "displacement",
             doc: "how points that carry the motion get their displacement: from the nodes anew in every step, as published, or by increments",
@@ -85,13 +127,19 @@ pub(crate) fn layout<const D: usize>(
                 .to_owned(),
         });
     }
-    let outside =
-        method.given_number("thickness_m").unwrap_or(DEFAULT_CELLS * problem.cell_size);
+    let outside = method
+        .given_number("thickness_m")
+        .unwrap_or(DEFAULT_CELLS * problem.cell_size);
     let layer = match problem.transfer {
         Transfer::Keep => LayerPoints::Kept,
         _ => LayerPoints::Carried,
     };
-    Ok(Layout { outside, inside: 0.0, end: End::Fixed, layer: Some(layer) })
+    Ok(Layout {
+        outside,
+        inside: 0.0,
+        end: End::Fixed,
+        layer: Some(layer),
+    })
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
@@ -241,7 +289,9 @@ impl<const D: usize> Stretched<D> {
         let (mut gradient, mut stress) = ([zero::<D>(); BLOCK], [zero::<D>(); BLOCK]);
         for block in blocks(self.range.clone()) {
             let n = block.len();
-            trial.disc.gradient(block.clone(), field, &mut gradient[..n]);
+            trial
+                .disc
+                .gradient(block.clone(), field, &mut gradient[..n]);
             for (b, (g, stress)) in gradient[..n].iter().zip(&mut stress).enumerate() {
                 let q = block.start - self.range.start + b;
                 let a = self.stretched_moduli(q, factor);
@@ -262,8 +312,10 @@ impl<const D: usize> RegionKernel<D> for Stretched<D> {
             let mass = &points.mass[block.clone()];
             disc.scatter_vector(block.clone(), mass, &inertia, &mut out.mass);
             if self.rayleigh > 0.0 {
-                let damping: Vec<Vector<D>> =
-                    inertia.iter().map(|m| m.map(|m| self.rayleigh * m)).collect();
+                let damping: Vec<Vector<D>> = inertia
+                    .iter()
+                    .map(|m| m.map(|m| self.rayleigh * m))
+                    .collect();
                 disc.scatter_vector(block, mass, &damping, out.viscous_mut());
             }
         }

@@ -6,7 +6,11 @@ use crate::error::SolverError;
 use crate::problem::{Problem, Side};
 
 /// The method's entry.
-pub static METHOD: MethodInfo = MethodInfo { name: "roller", summary: "normal displacement held, tangential free", params: &[] };
+pub static METHOD: MethodInfo = MethodInfo {
+    name: "roller",
+    summary: "normal displacement held, tangential free",
+    params: &[],
+};
 
 pub(crate) fn layout<const D: usize>(
     _problem: &Problem<D>,

@@ -9,6 +9,15 @@ use crate::points::Points;
 use crate::tensor::Vector;
 use crate::time::Rates;
 
+/// Steps end at multiples of their length, so that lengths taken as differences vary by rounding: by
+/// so much of themselves at most in a run of a million steps.
+const ROUNDING: f64 = 1e-9;
+
+/// Are two lengths of steps, or rates made of them, the same but for rounding? NaN never is.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= ROUNDING * b.abs()
+}
+
 /// Matrices of a model.
 pub struct Matrices<const D: usize> {
     /// Stiffness of the regions whose force is K times the displacement.
@@ -71,7 +80,9 @@ impl<const D: usize> Matrices<D> {
 
     /// Does the effective matrix stand for these rates?
     pub fn stands_for(&self, rates: Rates) -> bool {
-        self.rates == Some(rates)
+        self.rates.is_some_and(|standing| {
+            same(standing.mass, rates.mass) && same(standing.viscous, rates.viscous)
+        })
     }
 
     /// Says that points have moved.
@@ -87,7 +98,7 @@ impl<const D: usize> Matrices<D> {
         trial: &Trial<'_, D>,
         around: &Surroundings<'_, D>,
     ) {
-        if self.constant_dt != trial.dt {
+        if !same(self.constant_dt, trial.dt) {
             self.constant = assembled(regions, trial, Stiffness::Constant);
             self.constant_dt = trial.dt;
         }

@@ -97,6 +97,13 @@ pub(super) const METHODS: &[Overlay] = &[
         end = 'free'",
     ),
     Overlay::new(
+        "pml",
+        "20 m of perfectly matched layer below the base: 20 cells at 1 m",
+        "[boundary.bottom]
+        method = 'pml'
+        thickness_m = 20.0",
+    ),
+    Overlay::new(
         "extended",
         "the column goes on below the base",
         "boundary.bottom.method = 'extended'",

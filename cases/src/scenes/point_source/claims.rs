@@ -195,5 +195,9 @@ fn obstacle(scene: &PointSource) -> Option<String> {
 fn is_stated_load(scene: &PointSource) -> bool {
     let source = &scene.source;
     let small = scene.points.mode == PointMode::Frozen || source.amplitude <= 1e6;
-    small && matches!((source.wavelet, source.frequency), (Wavelet::Sine, 2.0) | (Wavelet::Ricker, 3.0))
+    small
+        && matches!(
+            (source.wavelet, source.frequency),
+            (Wavelet::Sine, 2.0) | (Wavelet::Ricker, 3.0)
+        )
 }
