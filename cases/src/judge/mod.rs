@@ -32,8 +32,10 @@ pub const PAPER: &str = "paper";
 pub struct Judged {
     /// The rows.
     pub rows: Vec<Row>,
-    /// Why there is no reference, if there is none.
+    /// Why claims have no reference, if there are such claims.
     pub reference_missing: Option<String>,
+    /// Why runs have no reference, claims or not.
+    pub notes: Vec<String>,
 }
 
 /// Judges runs of one study; ratios are taken over the run of the scene's standard method.
@@ -42,10 +44,10 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
     let mut judged = Judged::default();
     for (index, run) in runs.iter().enumerate() {
         let mut numbers = cost_measurements(&run.manifest.method, &run.record.cost);
+        let mut missing: Vec<String> = Vec::new();
         let obstacle = match &run.record.status {
             Status::Complete => {
-                let missing = certified::measure(run, extended, &mut numbers).err();
-                judged.reference_missing = judged.reference_missing.or(missing);
+                missing.extend(certified::measure(run, extended, &mut numbers).err());
                 let standard = standard_of(run, runs);
                 measure(run, references, standard, index == 0, &mut numbers)
             }
@@ -55,9 +57,21 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
         if let Err(reason) = &obstacle
             && run.complete()
         {
-            judged.reference_missing = Some(reason.clone());
+            missing.push(reason.clone());
         }
-        judged.rows.extend(rows_of(run, &numbers, obstacle.err()));
+        let rows = rows_of(run, &numbers, obstacle.err());
+        for reason in missing {
+            let concerns =
+                |row: &Row| row.verdict == Some(Verdict::NotEvaluated) && row.why == reason;
+            judged
+                .notes
+                .push(format!("{}: no reference: {reason}", run.manifest.method));
+            // A run that claims nothing misses nothing.
+            if judged.reference_missing.is_none() && rows.iter().any(concerns) {
+                judged.reference_missing = Some(reason);
+            }
+        }
+        judged.rows.extend(rows);
     }
     judged.rows.extend(papers::rows(runs));
     judged
