@@ -18,6 +18,7 @@ use anechoic_reports::norms::{
     with_groups_db,
 };
 use anechoic_reports::row::{Row, Verdict};
+use anechoic_solver::problem::Problem;
 use anechoic_solver::record::{Record, Status};
 use references::{References, standard_of};
 
@@ -113,8 +114,10 @@ fn measure(
     let scene = run.prepared.scene.as_ref();
     let windows = scene.windows();
     energies(run, &windows, numbers);
+    let problem = scene.problem();
     for reference in &references.of(run)? {
         let subject = Subject {
+            problem: &problem,
             method: &run.manifest.method,
             reference,
             truth: traces_of(reference, &run.record),
@@ -206,6 +209,7 @@ fn onsets(windows: &[Window]) -> Onset {
 /// A run, what is true of it, and the run that absorbs nothing.
 struct Subject<'a> {
     method: &'a str,
+    problem: &'a Problem<2>,
     reference: &'a Reference,
     truth: Result<Traces, NormError>,
     run: Result<Traces, NormError>,
@@ -241,7 +245,13 @@ impl Subject<'_> {
             ));
         }
         if let (true, Ok((run, truth))) = (self.reference.pulses, self.pair()) {
-            numbers.extend(arrivals::measure(self.method, self.against(), run, truth));
+            numbers.extend(arrivals::measure(
+                self.method,
+                self.against(),
+                run,
+                truth,
+                &|receiver| arrivals::prescribed_until(self.problem, receiver),
+            ));
         }
     }
 
