@@ -1,7 +1,7 @@
 //! What must hold between the fields of a scene. Complaints are collected, so that all come at once.
 
 use crate::draft::Origins;
-use crate::error::Complaint;
+use crate::error::{Complaint, Origin};
 use crate::spec::{BoundarySpec, PointsSpec, ReceiverSpec};
 use anechoic_solver::boundary::{SideMethod, Value};
 use anechoic_solver::problem::{Aabb, PointMode, Transfer};
@@ -39,6 +39,11 @@ impl<'a> Checks<'a> {
         }
     }
 
+    /// Did a file or the command line give the field?
+    fn by_user(&self, field: &str) -> bool {
+        matches!(self.origins.of(field), Origin::Set(_) | Origin::File { .. })
+    }
+
     /// Points in a cell and how they exchange motion with the nodes.
     pub fn points(&mut self, points: &PointsSpec) {
         let n = points.per_cell;
@@ -46,9 +51,19 @@ impl<'a> Checks<'a> {
             format!("{n} is not a square; allowed: 1, 4, 9, 16, ...")
         });
         let keeps = points.transfer == Transfer::Keep && points.mode == PointMode::Moving;
-        self.require(!keeps, "points.transfer", || {
-            "\"keep\" needs frozen points; with points.mode = \"moving\" allowed: \"affine\", \"flip\", \"pic\"".into()
-        });
+        // Blame what the user wrote, not what stood there before.
+        let other = self.origins.of("points.transfer");
+        let (field, message) = if self.by_user("points.mode") && !self.by_user("points.transfer") {
+            (
+                "points.mode",
+                format!(
+                    "\"moving\" does not go with points.transfer = \"keep\" ({other}), which needs frozen points; set points.transfer as well, allowed: \"affine\", \"flip\", \"pic\""
+                ),
+            )
+        } else {
+            ("points.transfer", "\"keep\" needs frozen points; with points.mode = \"moving\" allowed: \"affine\", \"flip\", \"pic\"".into())
+        };
+        self.require(!keeps, field, || message);
     }
 
     /// Receivers with names of their own, inside the body.

@@ -15,7 +15,7 @@ pub mod exit {
     pub const USAGE: u8 = 2;
     /// A run failed or was stopped, or a result could not be written.
     pub const SOLVER_FAILED: u8 = 3;
-    /// Claims could not be judged because their reference does not exist.
+    /// Claims could not be judged because their reference does not exist, or none of them could.
     pub const REFERENCE_MISSING: u8 = 4;
 }
 

@@ -75,8 +75,10 @@ pub struct Published {
     pub rows: Vec<Row>,
     /// Methods by their echo; `None` when no echo ratio was measured.
     pub ranking: Option<Ranking>,
-    /// Why there is no reference, if there is none.
+    /// Why claims have no reference, if there are such claims.
     pub reference_missing: Option<String>,
+    /// What is missing from the results, and why.
+    pub notes: Vec<String>,
     /// The report.
     pub report: PathBuf,
 }
@@ -121,16 +123,30 @@ pub fn publish(
         write_file(&folder.join(name), made.as_bytes())?;
     }
     let ranking = rank(&judged.rows);
-    let pictures = pictures::draw(&runs, kind, &ranking, &references)
-        .map_err(|e| failed("the pictures", &e))?;
-    let figures = pictures
-        .iter()
-        .map(|picture| save_picture(folder, picture))
-        .collect::<Result<_, _>>()?;
+    let gallery = pictures::draw(&runs, kind, &ranking, &references);
+    let mut notes = judged.notes;
+    notes.extend(gallery.notes);
+    let mut figures = Vec::new();
+    for picture in &gallery.pictures {
+        match save_picture(folder, picture) {
+            Ok(figure) => figures.push(figure),
+            Err(CaseError::Report { reason, .. }) => {
+                notes.push(pictures::missing(picture.name, &reason));
+            }
+            Err(error) => return Err(error),
+        }
+    }
     let ranked = ranking.methods.iter().any(|method| method.echo.is_some());
     let ranking = ranked.then_some(ranking);
     let report = folder.join("report.html");
-    if let Some(study) = describe(&runs, &judged.rows, ranking.clone(), figures, command) {
+    if let Some(study) = describe(
+        &runs,
+        &judged.rows,
+        ranking.clone(),
+        figures,
+        &notes,
+        command,
+    ) {
         write_file(&report, html::report(&study).as_bytes())?;
     }
     Ok(Published {
@@ -138,6 +154,7 @@ pub fn publish(
         rows: judged.rows,
         ranking,
         reference_missing: judged.reference_missing,
+        notes,
         report,
     })
 }
@@ -148,6 +165,7 @@ fn describe(
     rows: &[Row],
     ranking: Option<Ranking>,
     figures: Vec<Figure>,
+    notes: &[String],
     command: &str,
 ) -> Option<reports::Study> {
     let first = runs.first()?;
@@ -178,6 +196,7 @@ fn describe(
                 note: (*note).to_owned(),
             })
             .collect(),
+        notes: notes.to_vec(),
         figures,
     })
 }

@@ -145,6 +145,8 @@ fn judge_claim(claim: &Claim, measurements: &[Measurement], row: &mut Row) {
         if let Some((_, name)) = &first.against {
             row.reference.clone_from(name);
         }
+    } else {
+        row.unit = unit_of(&claim.metric).to_owned();
     }
     let value = match found.as_slice() {
         [] => Err(why_absent(claim, measurements)),
@@ -169,6 +171,22 @@ fn judge_claim(claim: &Claim, measurements: &[Measurement], row: &mut Row) {
             row.why = reason;
         }
     }
+}
+
+/// Unit of a metric, which its name ends with unless it is a ratio or a count.
+fn unit_of(metric: &str) -> &'static str {
+    if metric.starts_with("us_") {
+        return "us";
+    }
+    [
+        ("_per_s", "1/s"),
+        ("_s", "s"),
+        ("_db", "dB"),
+        ("_bytes", "B"),
+    ]
+    .into_iter()
+    .find_map(|(ending, unit)| metric.ends_with(ending).then_some(unit))
+    .unwrap_or("1")
 }
 
 fn meets(claim: &Claim, m: &Measurement) -> bool {
@@ -292,6 +310,23 @@ mod tests {
         assert!(rows[0].why.contains("not measured"));
         assert_eq!(rows[1].verdict, None);
         assert_eq!(rows[1].value, Some(0.004));
+    }
+
+    #[test]
+    fn a_claim_that_nobody_measured_has_its_unit() {
+        let claims = [
+            "residual",
+            "arrival_s",
+            "growth_rate_per_s",
+            "echo_level_db",
+        ]
+        .map(|metric| claim(metric, "A", Evidence::Analytic, 0.1));
+        let rows = judge("c", "gate", &[], &claims);
+        let units: Vec<&str> = rows.iter().map(|row| row.unit.as_str()).collect();
+        assert_eq!(units, ["1", "s", "1/s", "dB"]);
+        for m in cost_measurements("pml", &Cost::default()) {
+            assert_eq!(unit_of(&m.metric), m.unit);
+        }
     }
 
     #[test]

@@ -28,6 +28,9 @@ pub struct Study {
     pub runs: Vec<RunSummary>,
     /// What the case says about its source.
     pub ledger: Vec<LedgerEntry>,
+    /// What is missing here, and why; may be empty.
+    #[serde(default)]
+    pub notes: Vec<String>,
     /// Pictures; drawn anew from the records, so not stored.
     #[serde(skip)]
     pub figures: Vec<Figure>,

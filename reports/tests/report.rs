@@ -245,6 +245,7 @@ fn study() -> Study {
                 note: "The dashpot leaves no visible reflection.".to_owned(),
             },
         ],
+        notes: vec!["the picture `echo` could not be made".to_owned()],
         figures: figures(),
     }
 }
@@ -319,6 +320,7 @@ fn an_empty_study_claims_nothing() {
         ranking: None,
         runs: vec![],
         ledger: vec![],
+        notes: vec![],
         figures: vec![],
         ..study()
     };

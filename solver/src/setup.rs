@@ -61,6 +61,8 @@ impl<const D: usize> Geometry<D> {
                 });
             }
         }
+        check_size(problem, &material_box, &h)?;
+        check_corners(&assigned)?;
         let grid = Grid {
             origin: std::array::from_fn(|a| material_box.lower[a] - h[a] * margin[a][0] as f64),
             h,
@@ -80,7 +82,7 @@ impl<const D: usize> Geometry<D> {
     }
 
     /// Whose points a cell with this centre holds: a layer of its own has what lies beyond its side.
-    fn owner(&self, target: &Aabb<D>, centre: &Vector<D>) -> Result<Owner, SolverError> {
+    fn owner(&self, target: &Aabb<D>, centre: &Vector<D>) -> Owner {
         let mut owner = Owner::Target;
         for a in &self.assigned {
             let axis = a.side.axis;
@@ -93,11 +95,6 @@ impl<const D: usize> Geometry<D> {
                 continue;
             }
             owner = match (owner, a.layout.layer) {
-                (Owner::Layer(name, _), Some(_)) if name != a.method.method => {
-                    let reason =
-                        format!("layers of {name} and {} meet in a corner", a.method.method);
-                    return Err(setup_error(format!("boundary.{}", a.side.name()), reason));
-                }
                 (_, Some(layer)) => {
                     let info = boundary::find(&a.method.method);
                     Owner::Layer(info.map_or("", |m| m.name), layer)
@@ -106,7 +103,7 @@ impl<const D: usize> Geometry<D> {
                 (_, None) => Owner::Outside,
             };
         }
-        Ok(owner)
+        owner
     }
 
     fn material_cells_along(&self) -> [usize; D] {
@@ -136,6 +133,59 @@ fn setup_error(field: impl Into<String>, reason: impl Into<String>) -> SolverErr
     SolverError::Setup {
         field: field.into(),
         reason: reason.into(),
+    }
+}
+
+/// More points than this (some 10 GB) are a slip of a size rather than a scene.
+const MOST_POINTS: f64 = 5e7;
+/// More steps than this (years of work on a mesh of any size) likewise.
+const MOST_STEPS: f64 = 1e9;
+
+/// Refuses what no machine at hand can hold, before anything is allocated.
+fn check_size<const D: usize>(
+    problem: &Problem<D>,
+    material: &Aabb<D>,
+    h: &Vector<D>,
+) -> Result<(), SolverError> {
+    let cells: f64 = (0..D)
+        .map(|a| (material.upper[a] - material.lower[a]) / h[a])
+        .product();
+    let points = cells * problem.points_per_cell as f64;
+    if points.is_nan() || points > MOST_POINTS {
+        let reason = format!(
+            "cells of {} m make {points:.1e} points of body and layers, more than {MOST_POINTS:.0e}",
+            problem.cell_size
+        );
+        return Err(setup_error("grid.h_m", reason));
+    }
+    let steps = problem.end_time / problem.dt;
+    if steps.is_nan() || steps > MOST_STEPS {
+        let reason = format!("{steps:.1e} steps to the end, more than {MOST_STEPS:.0e}");
+        return Err(setup_error("time.dt_s", reason));
+    }
+    Ok(())
+}
+
+/// Layers with kernels of their own cannot share a corner with each other.
+fn check_corners(assigned: &[Assigned]) -> Result<(), SolverError> {
+    let mut layers = assigned.iter().filter(|a| a.layout.layer.is_some());
+    let Some(first) = layers.next() else {
+        return Ok(());
+    };
+    let other =
+        layers.find(|a| a.method.method != first.method.method && a.side.axis != first.side.axis);
+    match other {
+        None => Ok(()),
+        Some(other) => {
+            let reason = format!(
+                "layers of {} and {} meet in a corner; one method for both sides works",
+                first.method.method, other.method.method
+            );
+            Err(setup_error(
+                format!("boundary.{}.method", other.side.name()),
+                reason,
+            ))
+        }
     }
 }
 
@@ -344,7 +394,7 @@ fn fill<const D: usize>(
                 geometry.material_box.lower[a] + h[a] * index as f64
             });
             let centre: Vector<D> = std::array::from_fn(|a| lower[a] + 0.5 * h[a]);
-            if geometry.owner(&problem.target, &centre)? == wanted {
+            if geometry.owner(&problem.target, &centre) == wanted {
                 points.fill_cell(&lower, &h, geometry.per_axis, problem.material.density);
             }
         }

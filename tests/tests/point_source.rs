@@ -12,7 +12,10 @@ use anechoic::certified::causality::serves_until;
 use anechoic::certified::library::Library;
 use anechoic::certified::solve::{compute, difference};
 use anechoic::certified::{Certified, key};
-use anechoic::commands::{Finished, Options, compare};
+use anechoic::commands::{
+    Finished, Options, compare, plan_ablation, plan_compare, plan_run, reference,
+};
+use anechoic::error::exit;
 use anechoic::prepare::{Prepared, Request, Target};
 use anechoic_reference::claim::Evidence;
 use anechoic_reports::row::{Row, Verdict};
@@ -157,4 +160,92 @@ fn nothing_comes_back_before_the_certificate_says() {
     // The stored series have nine digits.
     assert!(before < 1e-8 * peak, "{:e}", before / peak);
     assert!(after > 1e-3 * peak, "{:e}", after / peak);
+}
+
+fn planned(methods: &[&str], presets: &[&str], sets: &[&str]) -> Options {
+    let mut options = Options::new(CASE, std::path::Path::new("unused"));
+    options.request.presets = presets.iter().map(|name| (*name).to_owned()).collect();
+    options.request.sets = sets.iter().map(|set| (*set).to_owned()).collect();
+    options.methods = methods.iter().map(|name| (*name).to_owned()).collect();
+    options
+}
+
+#[test]
+fn a_comparison_leaves_out_what_is_dear_or_does_not_apply() {
+    let names = |options: &Options| {
+        let plan = plan_compare(options).unwrap();
+        let names: Vec<String> = plan.scenes.iter().map(|s| s.method.clone()).collect();
+        (names, plan.left_out.len())
+    };
+    let usual = [
+        "fixed",
+        "dashpot",
+        "damping-layer",
+        "pml-stretched",
+        "pml",
+        "pml-20",
+        "pml-50",
+    ];
+    assert_eq!(
+        names(&planned(&[], &[], &[])),
+        (usual.map(String::from).to_vec(), 0)
+    );
+    // Plain flip is refused by the true layers; asked for by name, that is an error.
+    let flip = planned(&[], &["paper-transfer"], &[]);
+    assert_eq!(
+        names(&flip),
+        (usual[..4].iter().map(|n| (*n).to_owned()).collect(), 3)
+    );
+    let named = plan_compare(&planned(&["pml"], &["paper-transfer"], &[])).unwrap_err();
+    assert!(named.to_string().contains("with_flip"), "{named}");
+}
+
+#[test]
+fn sides_are_named_by_their_parameters() {
+    let name = |sets: &[&str]| {
+        plan_run(&planned(&[], &[], sets)).unwrap().scenes[0]
+            .method
+            .clone()
+    };
+    assert_eq!(name(&[]), "pml");
+    assert_eq!(name(&["pml.thickness_m=400"]), "pml-20");
+    // No preset is that thick; the method's own name is left.
+    assert_eq!(name(&["pml.thickness_m=300"]), "pml");
+    let plan = plan_run(&planned(&["fixed"], &[], &[])).unwrap();
+    assert_eq!(plan.scenes[0].scene.boundary().left.method, "extended");
+}
+
+#[test]
+fn fields_at_fault_are_named() {
+    for (set, part) in [
+        (
+            "source.x_m=5000",
+            "source.x_m: the source at 5000 m lies outside the mesh",
+        ),
+        ("t1_s=10", "t1_s: no time is left for echoes"),
+        (
+            "target.x_max_m=900",
+            "target.x_max_m: 900 m is not right of",
+        ),
+        ("receivers.C3.y_m=20", "receiver C3 at 20 m lies outside"),
+        (
+            "source.direction=down",
+            "allowed: \"vertical\", \"horizontal\"",
+        ),
+    ] {
+        let error = plan_run(&planned(&[], &[], &[set])).unwrap_err();
+        assert_eq!(error.exit_code(), exit::USAGE);
+        assert!(error.to_string().contains(part), "{error}");
+    }
+}
+
+#[test]
+fn closed_forms_need_neither_ablation_nor_reference() {
+    let mut options = planned(&[], &[], &[]);
+    options.request.target = "compression-1d".into();
+    let error = plan_ablation(&options).unwrap_err();
+    assert!(error.to_string().contains(CASE), "{error}");
+    let folder = tempfile::tempdir().unwrap();
+    let error = reference(&options.request, folder.path()).unwrap_err();
+    assert_eq!(error.exit_code(), exit::USAGE);
 }

@@ -7,7 +7,7 @@ use crate::commands::{self, Finished, Plan};
 use crate::error::{CaseError, exit};
 use crate::scenes::SCENES;
 use crate::{progress, scene_text};
-use args::{Arguments, Command, Format, WorkArgs};
+use args::{Arguments, Command, WorkArgs};
 use clap::Parser;
 
 /// Runs the program; returns its exit code.
@@ -65,6 +65,9 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             format,
         }) => {
             let studies = commands::report(folder, filter.as_deref())?;
+            for finished in &studies {
+                eprint!("{}", print::missing(finished));
+            }
             print::out(&print::results(&studies, *format)?);
             return Ok(studies
                 .iter()
@@ -92,9 +95,7 @@ fn solve_or_show(
     stop_on_interrupt()?;
     let finished = command()?;
     let code = finished.exit_code();
-    if work.format == Format::Table {
-        eprint!("{}", print::incomplete(&finished));
-    }
+    eprint!("{}", print::missing(&finished));
     print::out(&print::results(&[finished], work.format)?);
     Ok(code)
 }

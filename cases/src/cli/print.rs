@@ -324,8 +324,8 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
     Ok(text)
 }
 
-/// Runs that did not end, for stderr.
-pub fn incomplete(finished: &Finished) -> String {
+/// What is missing from the results, for stderr: runs that did not end, references, pictures.
+pub fn missing(finished: &Finished) -> String {
     let mut text = String::new();
     for run in &finished.study.runs {
         let how = match &run.record.status {
@@ -338,6 +338,12 @@ pub fn incomplete(finished: &Finished) -> String {
             "{}: {how}; what stands is stored",
             run.manifest.method
         );
+    }
+    for note in &finished.study.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
+    if finished.nothing_judged() {
+        text += "none of the claims could be judged; the rows say why\n";
     }
     text
 }

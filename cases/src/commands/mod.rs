@@ -11,6 +11,7 @@ use crate::prepare::{Prepared, Request, Target};
 use crate::runner::run_all;
 use crate::store::Store;
 use crate::study::{Kind, Published, find_studies, publish};
+use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::Status;
 pub use plan::Plan;
@@ -87,7 +88,14 @@ impl Finished {
         Ok(Finished { study, rows })
     }
 
-    /// The exit code: failed or stopped runs, then failed claims, then missing references.
+    /// Were claims made, of which none could be judged?
+    pub fn nothing_judged(&self) -> bool {
+        let tally = Tally::of(&self.rows);
+        tally.not_evaluated > 0 && tally.pass + tally.fail == 0
+    }
+
+    /// The exit code: failed or stopped runs, then failed claims, then claims without a reference or
+    /// none of which could be judged.
     pub fn exit_code(&self) -> u8 {
         let ended = |run: &crate::runner::Run| run.record.status == Status::Complete;
         let failed = |row: &Row| row.verdict == Some(Verdict::Fail);
@@ -95,7 +103,7 @@ impl Finished {
             exit::SOLVER_FAILED
         } else if self.rows.iter().any(failed) {
             exit::GATE_FAILED
-        } else if self.study.reference_missing.is_some() {
+        } else if self.study.reference_missing.is_some() || self.nothing_judged() {
             exit::REFERENCE_MISSING
         } else {
             exit::PASS

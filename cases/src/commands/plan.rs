@@ -103,6 +103,21 @@ impl Plan {
                 (Err(error), _) => return Err(error),
             }
         }
+        // A file that writes out a method's own sides adds no run of its own.
+        if let Some(name) = described_name
+            .as_deref()
+            .filter(|_| options.methods.is_empty())
+            && let Some(at) = scenes.iter().position(|scene| scene.method == name)
+            && let Some(same) = scenes.iter().enumerate().find_map(|(i, other)| {
+                (i != at && other.hash() == scenes[at].hash()).then(|| other.method.clone())
+            })
+        {
+            scenes.remove(at);
+            left_out.push((
+                name.to_owned(),
+                format!("the file's sides are those of `{same}`"),
+            ));
+        }
         refuse_unused(&unused_everywhere(&scenes))?;
         Ok(Plan {
             scenes,

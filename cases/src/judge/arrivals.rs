@@ -3,6 +3,8 @@
 use anechoic_reference::claim::Evidence;
 use anechoic_reports::judge::Measurement;
 use anechoic_reports::norms::{NormError, Traces, Window, arrival_lag};
+use anechoic_solver::problem::{Drive, Problem};
+use anechoic_solver::setup::fitted_cell;
 use std::ops::Range;
 
 /// Below this share of its peak the reference counts as silent.
@@ -14,12 +16,34 @@ const RIPPLE: f64 = 0.1;
 /// Lags are looked for up to this share of a pulse's duration.
 const REACH: f64 = 0.2;
 
+/// When the prescribed motion of a receiver on a driven side ends (s); `None` elsewhere. Until then
+/// the receiver shows what was put in, which no solver can get wrong.
+pub fn prescribed_until(problem: &Problem<2>, receiver: &str) -> Option<f64> {
+    let mut places = problem.probes.receivers.iter();
+    let place = places.find(|r| r.name == receiver)?.place;
+    let cell = fitted_cell(&problem.target, problem.cell_size);
+    let until = problem.drives.iter().filter_map(|drive| {
+        let Drive::SideVelocity { side, pulse } = drive else {
+            return None;
+        };
+        let edge = if side.upper {
+            problem.target.upper[side.axis]
+        } else {
+            problem.target.lower[side.axis]
+        };
+        let near = (place[side.axis] - edge).abs() < 0.5 * cell[side.axis];
+        near.then(|| pulse.end())
+    });
+    until.reduce(f64::max)
+}
+
 /// The worst lag and the worst relative deviation of a peak over the arrivals of each receiver.
 pub fn measure(
     method: &str,
     against: Option<(Evidence, &str)>,
     run: &Traces,
     truth: &Traces,
+    prescribed_until: &dyn Fn(&str) -> Option<f64>,
 ) -> Vec<Measurement> {
     let mut numbers = Vec::new();
     for (mine, true_trace) in run.receivers().iter().zip(truth.receivers()) {
@@ -31,7 +55,10 @@ pub fn measure(
         };
         let (values, reference) = (&mine.components[axis], &true_trace.components[axis]);
         let times = run.times();
-        let arrivals = arrivals(times, reference);
+        let mut arrivals = arrivals(times, reference);
+        if let Some(until) = prescribed_until(&mine.name) {
+            arrivals.retain(|window| window.from >= until);
+        }
         let worst = |measure: &dyn Fn(&Window) -> Result<f64, NormError>| -> Result<f64, String> {
             let mut worst = None;
             for window in &arrivals {
@@ -157,13 +184,34 @@ mod tests {
 
     #[test]
     fn the_worst_arrival_counts() {
-        let numbers = measure("fixed", None, &traces(0.03, 0.9), &traces(0.0, 1.0));
+        let numbers = measure(
+            "fixed",
+            None,
+            &traces(0.03, 0.9),
+            &traces(0.0, 1.0),
+            &|_| None,
+        );
         let value = |metric: &str| {
             let number = numbers.iter().find(|n| n.metric == metric).unwrap();
             number.value.clone().unwrap()
         };
         assert!((value("arrival_s") - 0.03).abs() < 1e-3);
         assert!((value("peak_deviation") - 0.1).abs() < 1e-6);
+    }
+
+    #[test]
+    fn what_was_prescribed_is_no_arrival() {
+        let (run, truth) = (traces(0.0, 0.9), traces(0.0, 1.0));
+        let measured = |until| {
+            let numbers = measure("fixed", None, &run, &truth, &|_| Some(until));
+            numbers.into_iter().map(|n| n.value).collect::<Vec<_>>()
+        };
+        assert!(measured(1.0).iter().all(Result::is_ok));
+        let none = measured(2.8);
+        assert!(none.iter().all(|v| {
+            v.as_ref()
+                .is_err_and(|why| why.contains("no pulse arrives"))
+        }));
     }
 
     #[test]

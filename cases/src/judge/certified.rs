@@ -66,6 +66,7 @@ pub(super) fn measure(
         }
     };
     let subject = Subject {
+        problem: &scene.problem(),
         method,
         reference: &reference,
         truth: super::traces_of(&reference, &run.record),

@@ -18,6 +18,7 @@ use anechoic_reports::norms::{
     with_groups_db,
 };
 use anechoic_reports::row::{Row, Verdict};
+use anechoic_solver::problem::Problem;
 use anechoic_solver::record::{Record, Status};
 use references::{References, standard_of};
 
@@ -32,8 +33,10 @@ pub const PAPER: &str = "paper";
 pub struct Judged {
     /// The rows.
     pub rows: Vec<Row>,
-    /// Why there is no reference, if there is none.
+    /// Why claims have no reference, if there are such claims.
     pub reference_missing: Option<String>,
+    /// Why runs have no reference, claims or not.
+    pub notes: Vec<String>,
 }
 
 /// Judges runs of one study; ratios are taken over the run of the scene's standard method.
@@ -42,10 +45,10 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
     let mut judged = Judged::default();
     for (index, run) in runs.iter().enumerate() {
         let mut numbers = cost_measurements(&run.manifest.method, &run.record.cost);
+        let mut missing: Vec<String> = Vec::new();
         let obstacle = match &run.record.status {
             Status::Complete => {
-                let missing = certified::measure(run, extended, &mut numbers).err();
-                judged.reference_missing = judged.reference_missing.or(missing);
+                missing.extend(certified::measure(run, extended, &mut numbers).err());
                 let standard = standard_of(run, runs);
                 measure(run, references, standard, index == 0, &mut numbers)
             }
@@ -55,9 +58,21 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
         if let Err(reason) = &obstacle
             && run.complete()
         {
-            judged.reference_missing = Some(reason.clone());
+            missing.push(reason.clone());
         }
-        judged.rows.extend(rows_of(run, &numbers, obstacle.err()));
+        let rows = rows_of(run, &numbers, obstacle.err());
+        for reason in missing {
+            let concerns =
+                |row: &Row| row.verdict == Some(Verdict::NotEvaluated) && row.why == reason;
+            judged
+                .notes
+                .push(format!("{}: no reference: {reason}", run.manifest.method));
+            // A run that claims nothing misses nothing.
+            if judged.reference_missing.is_none() && rows.iter().any(concerns) {
+                judged.reference_missing = Some(reason);
+            }
+        }
+        judged.rows.extend(rows);
     }
     judged.rows.extend(papers::rows(runs));
     judged
@@ -99,8 +114,10 @@ fn measure(
     let scene = run.prepared.scene.as_ref();
     let windows = scene.windows();
     energies(run, &windows, numbers);
+    let problem = scene.problem();
     for reference in &references.of(run)? {
         let subject = Subject {
+            problem: &problem,
             method: &run.manifest.method,
             reference,
             truth: traces_of(reference, &run.record),
@@ -192,6 +209,7 @@ fn onsets(windows: &[Window]) -> Onset {
 /// A run, what is true of it, and the run that absorbs nothing.
 struct Subject<'a> {
     method: &'a str,
+    problem: &'a Problem<2>,
     reference: &'a Reference,
     truth: Result<Traces, NormError>,
     run: Result<Traces, NormError>,
@@ -227,7 +245,13 @@ impl Subject<'_> {
             ));
         }
         if let (true, Ok((run, truth))) = (self.reference.pulses, self.pair()) {
-            numbers.extend(arrivals::measure(self.method, self.against(), run, truth));
+            numbers.extend(arrivals::measure(
+                self.method,
+                self.against(),
+                run,
+                truth,
+                &|receiver| arrivals::prescribed_until(self.problem, receiver),
+            ));
         }
     }
 

@@ -45,36 +45,56 @@ pub enum PictureError {
     Plot(#[from] PlotError),
 }
 
-/// All pictures that the runs allow.
-///
-/// # Errors
-/// [`PictureError`] when a record is out of shape.
-pub fn draw(
-    runs: &[Run],
-    kind: Kind,
-    ranking: &Ranking,
-    references: &References,
-) -> Result<Vec<Picture>, PictureError> {
+/// The pictures that could be made, and why others could not.
+#[derive(Debug, Default)]
+pub struct Gallery {
+    /// The pictures.
+    pub pictures: Vec<Picture>,
+    /// What is missing from them, and why.
+    pub notes: Vec<String>,
+}
+
+impl Gallery {
+    /// Takes a picture in, or says which one is missing.
+    fn add(&mut self, name: &str, made: Result<Option<Picture>, PictureError>) {
+        match made {
+            Ok(picture) => self.pictures.extend(picture),
+            Err(error) => self.notes.push(missing(name, &error)),
+        }
+    }
+}
+
+/// The note of a picture that could not be made.
+pub fn missing(name: &str, reason: &dyn std::fmt::Display) -> String {
+    format!("the picture `{name}` could not be made: {reason}")
+}
+
+/// All pictures that the runs allow. One that cannot be made costs a note, not the others: the runs
+/// are finished, and their numbers stand.
+pub fn draw(runs: &[Run], kind: Kind, ranking: &Ranking, references: &References) -> Gallery {
+    let mut gallery = Gallery::default();
     let runs: Vec<&Run> = runs.iter().filter(|run| run.complete()).collect();
     let Some(first) = runs.first() else {
-        return Ok(Vec::new());
+        return gallery;
     };
     if kind == Kind::Ablation {
-        return Ok(parts(&runs, ranking)?.into_iter().collect());
+        gallery.add("ablation", parts(&runs, ranking));
+        return gallery;
     }
     let reference = references
         .of(first)
         .ok()
         .and_then(|all| all.into_iter().find(|r| r.role == Role::NoEcho));
-    let mut pictures = vec![series(&runs, reference.as_ref())?];
+    gallery.add("receivers", series(&runs, reference.as_ref()).map(Some));
     if let Some(reference) = &reference {
-        pictures.extend(echo(&runs, reference, ranking)?);
+        let echo = echo(&runs, reference, ranking, &mut gallery.notes);
+        gallery.add("echo", echo);
     }
-    pictures.extend(bars(ranking)?);
-    pictures.extend(fields::space_time(&runs)?);
-    pictures.extend(fields::snapshots(&runs, ranking, references)?);
-    pictures.extend(energy(&runs, references)?);
-    Ok(pictures)
+    gallery.add("ranking", bars(ranking));
+    gallery.add("space-time", fields::space_time(&runs));
+    gallery.add("snapshots", fields::snapshots(&runs, ranking, references));
+    gallery.add("energy", energy(&runs, references));
+    gallery
 }
 
 /// Receivers' series over the reference: velocities in the component that moves most, displacements
@@ -130,11 +150,12 @@ fn series(runs: &[&Run], reference: Option<&Reference>) -> Result<Picture, Pictu
     })
 }
 
-/// Echo against time; needs the standard run.
+/// Echo against time; needs the standard run, and leaves receivers out where that one is silent.
 fn echo(
     runs: &[&Run],
     reference: &Reference,
     ranking: &Ranking,
+    notes: &mut Vec<String>,
 ) -> Result<Option<Picture>, PictureError> {
     let standard = runs
         .iter()
@@ -143,10 +164,18 @@ fn echo(
         return Ok(None);
     };
     let standard = traces(&standard.record, reference.quantity)?;
+    let (standard, silent) = without_silent(&standard)?;
+    notes.extend(silent.iter().map(|receiver| {
+        format!("the picture `echo` leaves out receiver {receiver}: the standard run is silent there, so that there is no ratio")
+    }));
+    if standard.receivers().is_empty() {
+        return Ok(None);
+    }
     let mut panels: Vec<(String, Vec<Line>)> = Vec::new();
     for run in runs {
         let truth = traces_of(reference, &run.record)?;
         let mine = traces(&run.record, reference.quantity)?;
+        let (mine, truth) = (without(&mine, &silent)?, without(&truth, &silent)?);
         for (receiver, y) in echo_series(&mine, &truth, &standard)? {
             let title = place(run, &receiver);
             let line = Line {
@@ -168,6 +197,21 @@ fn echo(
         drawing: EchoPlot { panels, floor }.draw()?,
         raster: false,
     }))
+}
+
+/// The receivers that move in the standard run, and the names of those that do not.
+fn without_silent(standard: &Traces) -> Result<(Traces, Vec<String>), NormError> {
+    let still = |trace: &&Trace| trace.magnitude().iter().all(|v| *v == 0.0);
+    let silent = standard.receivers().iter().filter(still);
+    let silent: Vec<String> = silent.map(|trace| trace.name.clone()).collect();
+    Ok((without(standard, &silent)?, silent))
+}
+
+/// All receivers but some.
+fn without(traces: &Traces, names: &[String]) -> Result<Traces, NormError> {
+    let others = traces.receivers().iter();
+    let others = others.filter(|trace| !names.contains(&trace.name));
+    Traces::new(traces.times().to_vec(), others.cloned().collect())
 }
 
 /// The largest value of a fiftieth of the series around each sample: an echo that swings through zero

@@ -35,6 +35,7 @@ fn page(study: &Study) -> Markup {
                     (verdicts(study))
                     (ranking(study))
                     (figures(&study.figures))
+                    (notes(&study.notes))
                     (ledger(study))
                     (runs(study))
                     (measurements(study))
@@ -141,6 +142,17 @@ fn figures(figures: &[Figure]) -> Markup {
             section {
                 h2 { "Pictures" }
                 @for figure in figures { (picture(figure)) }
+            }
+        }
+    }
+}
+
+fn notes(notes: &[String]) -> Markup {
+    html! {
+        @if !notes.is_empty() {
+            section {
+                h2 { "What is missing" }
+                ul { @for note in notes { li { (note) } } }
             }
         }
     }

@@ -35,7 +35,7 @@ pub(super) const LEDGER: &[(Finding, &str, &str)] = &[
     (
         Finding::Differs,
         "Eqs (8)-(9), absorbing by stretch",
-        "C' = C/(i omega) makes the stretch real. It slows the wave and absorbs nothing: without Rayleigh damping and memory the echo is that of a fixed edge. What absorbs are the Rayleigh term and the displacement sent to nodes and back in every step, Eqs (17a) and (18); see `anechoic ablation point-source`.",
+        "C' = C/(i omega) makes the stretch real. It slows the wave and absorbs nothing: without Rayleigh damping and memory the echo is 36 / 158 / 84 % with frozen points, and the energy grows by 0.05 per second. What absorbs are the Rayleigh term and the displacement sent to nodes and back in every step, Eqs (17a) and (18); see `anechoic ablation point-source`.",
     ),
     (
         Finding::Differs,
