@@ -16,6 +16,7 @@ pub mod basis;
 pub mod boundary;
 mod drive;
 pub mod error;
+pub mod geometry;
 pub mod grid;
 pub mod linear;
 pub mod material;
@@ -103,5 +104,5 @@ pub fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverError> {
 /// # Errors
 /// [`SolverError::Setup`] as for [`solve`].
 pub fn material_box<const D: usize>(problem: &Problem<D>) -> Result<Aabb<D>, SolverError> {
-    Ok(setup::Geometry::new(problem)?.material_box)
+    Ok(geometry::Geometry::new(problem)?.material_box)
 }

@@ -101,7 +101,8 @@ fn refined(method: &str, wavelet: &str) -> ([f64; 4], [[f64; 4]; 2]) {
             .set("receivers.B.x_m=2");
         let finished = run(&options).unwrap_or_else(|error| panic!("{error}"));
         let problem = finished.study.runs[0].prepared.scene.problem();
-        sizes[level] = anechoic_solver::setup::fitted_cell(&problem.target, problem.cell_size)[1];
+        sizes[level] =
+            anechoic_solver::geometry::fitted_cell(&problem.target, problem.cell_size)[1];
         assert!((problem.dt - 0.005 * sizes[level]).abs() < 1e-12);
         for (at, errors) in ["A", "B"].into_iter().zip(&mut errors) {
             errors[level] = value(&finished.rows, method, "rel_l2", at);

@@ -3,8 +3,8 @@
 use anechoic_reference::claim::Evidence;
 use anechoic_reports::judge::Measurement;
 use anechoic_reports::norms::{NormError, Traces, Window, arrival_lag};
+use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::problem::{Drive, Problem};
-use anechoic_solver::setup::fitted_cell;
 use std::ops::Range;
 
 /// Below this share of its peak the reference counts as silent.

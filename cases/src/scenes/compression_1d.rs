@@ -24,9 +24,9 @@ mod values;
 use crate::checks::Checks;
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
+use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::Probes;
 use anechoic_solver::problem::{BasisKind, Drive, Problem, Scheme, Side};
-use anechoic_solver::setup::fitted_cell;
 use anechoic_solver::wavelet::{Pulse, Wavelet};
 use serde::{Deserialize, Serialize};
 
