@@ -123,11 +123,19 @@ pub enum CaseError {
         source: std::io::Error,
     },
     /// A stored record does not say what it should.
-    #[error("{}: not a record of this program: {reason}", path.display())]
+    #[error("{}: not a whole record: {reason}", path.display())]
     BadRecord {
         /// The file.
         path: PathBuf,
         /// What is wrong.
+        reason: String,
+    },
+    /// A study of which nothing can be read.
+    #[error("{}: none of its runs can be read: {reason}; its report was left as it was, and what made it, with --resume, solves them again", path.display())]
+    NothingWhole {
+        /// The study's folder.
+        path: PathBuf,
+        /// What is wrong with its first run.
         reason: String,
     },
     /// A folder without records.
@@ -180,6 +188,7 @@ impl CaseError {
             CaseError::Storage { .. }
             | CaseError::Solver(_)
             | CaseError::Stopped(_)
+            | CaseError::NothingWhole { .. }
             | CaseError::Report { .. } => exit::SOLVER_FAILED,
         }
     }

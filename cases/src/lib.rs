@@ -4,7 +4,8 @@
 //! - [`spec`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
 //! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
 //! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
-//! - [`runner`], [`progress`]: solving; [`store`]: records on disk.
+//! - [`runner`], [`progress`]: solving; [`store`]: records on disk; [`resume`]: those that are read
+//!   back instead of solved.
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
 //! - [`commands`], [`cli`]: the program.
@@ -22,6 +23,7 @@ pub mod pictures;
 pub mod prepare;
 pub mod progress;
 pub mod provenance;
+pub mod resume;
 pub mod runner;
 pub mod scene;
 pub mod scene_text;

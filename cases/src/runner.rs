@@ -29,26 +29,55 @@ impl Run {
     }
 }
 
-/// Solves all scenes with `jobs` threads and stores each in turn; the order is kept.
+/// What there is to do for one run of a study.
+#[derive(Debug)]
+pub enum Task {
+    /// To solve a scene.
+    Solve(Prepared),
+    /// Nothing: the run was read back.
+    Take(Run),
+}
+
+impl Task {
+    /// The scene.
+    pub fn scene(&self) -> &Prepared {
+        match self {
+            Task::Solve(scene) => scene,
+            Task::Take(run) => &run.prepared,
+        }
+    }
+
+    /// Point-steps to make.
+    fn work(&self) -> u64 {
+        match self {
+            Task::Solve(scene) => scene.bill.points as u64 * scene.bill.steps as u64,
+            Task::Take(_) => 0,
+        }
+    }
+}
+
+/// Does all tasks with `jobs` threads and stores each run as it is solved; the order is kept.
 ///
 /// A scene whose solver fails is stored as such and the others go on.
 ///
 /// # Errors
 /// [`CaseError::Storage`] when a result cannot be written; what was written before stays.
-pub fn run_all(scenes: Vec<Prepared>, jobs: usize, store: &Store) -> Result<Vec<Run>, CaseError> {
-    let work = |p: &Prepared| (p.bill.points as u64) * (p.bill.steps as u64);
-    let progress = Progress::new(scenes.iter().map(work).sum());
+pub fn run_all(tasks: Vec<Task>, jobs: usize, store: &Store) -> Result<Vec<Run>, CaseError> {
+    let progress = Progress::new(tasks.iter().map(Task::work).sum());
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(jobs)
         .build()
         .map_err(|error| CaseError::Usage(format!("--jobs {jobs}: {error}")))?;
     let runs = pool.install(|| {
-        scenes
+        tasks
             .into_par_iter()
             .with_max_len(1)
-            .map(|scene| {
-                let run = run_one(scene, &progress);
-                store.save(&run).map(|()| run)
+            .map(|task| match task {
+                Task::Take(run) => Ok(run),
+                Task::Solve(scene) => {
+                    let run = run_one(scene, &progress);
+                    store.save(&run).map(|()| run)
+                }
             })
             .collect()
     });

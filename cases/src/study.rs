@@ -1,21 +1,28 @@
 //! A study: runs that are judged and shown together. Everything here is made from records alone, so
 //! that `report` makes the same again without solving.
+//!
+//! - [`stored`]: studies on disk.
+
+pub mod stored;
 
 use crate::certified::library::Library;
 use crate::error::CaseError;
 use crate::judge::references::References;
-use crate::judge::{PAPER, REFERENCE, judge_runs};
+use crate::judge::{Judged, PAPER, REFERENCE, judge_runs, rows_unread};
 use crate::pictures::{self, Picture};
 use crate::runner::Run;
-use crate::store::{json, load, read_json, save_rows, write_file};
+use crate::store::{save_rows, write_file};
 use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
 use anechoic_reports::html;
 use anechoic_reports::plot::PlotError;
+use anechoic_reports::provenance::Provenance;
 use anechoic_reports::ranking::{Floor, Ranking};
 use anechoic_reports::row::Row;
 use anechoic_reports::study::{self as reports, Figure, LedgerEntry, RunSummary};
+use anechoic_solver::record::Status;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use stored::{Damage, Study};
 
 /// The metric that methods are ranked by.
 const RANKED_BY: &str = "echo_ratio";
@@ -41,36 +48,13 @@ impl Kind {
     }
 }
 
-/// Which runs make a study; stored beside its report.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct StudyFile {
-    /// What it is for.
-    #[serde(default)]
-    pub kind: Kind,
-    /// The command that made it.
-    pub command: String,
-    /// Folders of the runs, below the case's folder, in the order of the comparison.
-    pub runs: Vec<PathBuf>,
-}
-
-/// A study read back.
-#[derive(Debug)]
-pub struct Study {
-    /// The case's folder.
-    pub folder: PathBuf,
-    /// What it is for.
-    pub kind: Kind,
-    /// The command that made it.
-    pub command: String,
-    /// Its runs.
-    pub runs: Vec<Run>,
-}
-
 /// A judged and published study.
 #[derive(Debug)]
 pub struct Published {
     /// The runs.
     pub runs: Vec<Run>,
+    /// Runs that cannot be read.
+    pub damaged: Vec<Damage>,
     /// All rows.
     pub rows: Vec<Row>,
     /// Methods by their echo; `None` when no echo ratio was measured.
@@ -83,31 +67,20 @@ pub struct Published {
     pub report: PathBuf,
 }
 
-/// Name of the study's file.
-const STUDY: &str = "study.json";
-
-/// Judges the runs and writes summary, JUnit, pictures and report into the case's `folder`.
+/// Judges a study's runs and writes summary, JUnit, pictures and report into its folder.
 ///
 /// # Errors
 /// [`CaseError::Storage`] and [`CaseError::Report`].
-pub fn publish(
-    folder: &Path,
-    runs: Vec<Run>,
-    kind: Kind,
-    command: &str,
-) -> Result<Published, CaseError> {
+pub fn publish(study: Study) -> Result<Published, CaseError> {
+    let folder = study.folder.as_path();
     let results = folder.parent().unwrap_or(folder);
-    let references = References::gather(&runs, &Library::of_results(results));
-    let judged = judge_runs(&runs, &references);
-    for run in &runs {
+    let references = References::gather(&study.runs, &Library::of_results(results));
+    let mut judged = judge_runs(&study.runs, &references);
+    take_in_damage(&study, &mut judged);
+    for run in &study.runs {
         save_rows(folder, &run.manifest, &judged.rows)?;
     }
-    let file = StudyFile {
-        kind,
-        command: command.to_owned(),
-        runs: runs.iter().map(|run| run.manifest.folder()).collect(),
-    };
-    write_file(&folder.join(STUDY), &json(&file)?)?;
+    study.announce()?;
     let text = |what: &str, made: Result<String, _>| made.map_err(|e| failed(what, &e));
     for (name, made) in [
         (
@@ -123,7 +96,7 @@ pub fn publish(
         write_file(&folder.join(name), made.as_bytes())?;
     }
     let ranking = rank(&judged.rows);
-    let gallery = pictures::draw(&runs, kind, &ranking, &references);
+    let gallery = pictures::draw(&study.runs, study.kind, &ranking, &references);
     let mut notes = judged.notes;
     notes.extend(gallery.notes);
     let mut figures = Vec::new();
@@ -139,18 +112,12 @@ pub fn publish(
     let ranked = ranking.methods.iter().any(|method| method.echo.is_some());
     let ranking = ranked.then_some(ranking);
     let report = folder.join("report.html");
-    if let Some(study) = describe(
-        &runs,
-        &judged.rows,
-        ranking.clone(),
-        figures,
-        &notes,
-        command,
-    ) {
-        write_file(&report, html::report(&study).as_bytes())?;
+    if let Some(page) = describe(&study, &judged.rows, ranking.clone(), figures, &notes) {
+        write_file(&report, html::report(&page).as_bytes())?;
     }
     Ok(Published {
-        runs,
+        runs: study.runs,
+        damaged: study.damaged,
         rows: judged.rows,
         ranking,
         reference_missing: judged.reference_missing,
@@ -159,33 +126,47 @@ pub fn publish(
     })
 }
 
+/// The rows and notes of runs that cannot be read: what is claimed of them is not evaluated.
+fn take_in_damage(study: &Study, judged: &mut Judged) {
+    for damage in &study.damaged {
+        let (method, why) = (damage.method(), damaged(damage));
+        // The runs of a study share their scene but for its sides, so that any knows the claims.
+        if let Some(like) = study.runs.first() {
+            judged.rows.extend(rows_unread(like, &method, &why));
+        }
+        judged.notes.push(format!(
+            "{method}: {why}; what made the study, with --resume, solves it again"
+        ));
+    }
+}
+
+fn damaged(damage: &Damage) -> String {
+    format!("its record is damaged: {}", damage.reason)
+}
+
 /// The report's content; none without runs.
 fn describe(
-    runs: &[Run],
+    study: &Study,
     rows: &[Row],
     ranking: Option<Ranking>,
     figures: Vec<Figure>,
     notes: &[String],
-    command: &str,
 ) -> Option<reports::Study> {
-    let first = runs.first()?;
+    let first = study.runs.first()?;
     let info = first.prepared.info;
     Some(reports::Study {
         case: info.name.to_owned(),
         title: info.title.to_owned(),
         summary: format!("{} {}", info.summary, info.source),
         profile: first.manifest.profile.clone(),
-        command: command.to_owned(),
+        command: study.command.clone(),
         rows: rows.to_vec(),
         ranking,
-        runs: runs
+        runs: study
+            .runs
             .iter()
-            .map(|run| RunSummary {
-                method: run.manifest.method.clone(),
-                status: run.record.status.clone(),
-                cost: run.record.cost.clone(),
-                provenance: run.manifest.provenance.clone(),
-            })
+            .map(summary_of_run)
+            .chain(study.damaged.iter().map(summary_of_damage))
             .collect(),
         ledger: info
             .ledger
@@ -199,6 +180,24 @@ fn describe(
         notes: notes.to_vec(),
         figures,
     })
+}
+
+fn summary_of_run(run: &Run) -> RunSummary {
+    RunSummary {
+        method: run.manifest.method.clone(),
+        status: run.record.status.clone(),
+        cost: Some(run.record.cost.clone()),
+        provenance: run.manifest.provenance.clone(),
+    }
+}
+
+fn summary_of_damage(damage: &Damage) -> RunSummary {
+    RunSummary {
+        method: damage.method(),
+        status: Status::Failed(damaged(damage)),
+        cost: None,
+        provenance: Provenance::default(),
+    }
 }
 
 /// Ranks the methods, down to the floor of the reference.
@@ -244,40 +243,6 @@ fn save_picture(folder: &Path, picture: &Picture) -> Result<Figure, CaseError> {
         Figure::of_lines
     };
     figure(picture.title, &picture.caption, &picture.drawing).map_err(wrong)
-}
-
-/// The studies below a folder: it is a case's folder, or holds some.
-///
-/// # Errors
-/// [`CaseError::NoRecords`], and what is wrong with a record.
-pub fn find_studies(folder: &Path) -> Result<Vec<Study>, CaseError> {
-    let mut folders = vec![folder.to_owned()];
-    let listing = std::fs::read_dir(folder).map_err(|source| CaseError::Read {
-        path: folder.to_owned(),
-        source,
-    })?;
-    let mut below: Vec<PathBuf> = listing.flatten().map(|entry| entry.path()).collect();
-    below.sort();
-    folders.extend(below);
-    let mut studies = Vec::new();
-    for folder in folders.iter().filter(|f| f.join(STUDY).is_file()) {
-        let file: StudyFile = read_json(&folder.join(STUDY))?;
-        let runs = file
-            .runs
-            .iter()
-            .map(|run| load(&folder.join(run)))
-            .collect::<Result<_, _>>()?;
-        studies.push(Study {
-            folder: folder.clone(),
-            kind: file.kind,
-            command: file.command,
-            runs,
-        });
-    }
-    if studies.is_empty() {
-        return Err(CaseError::NoRecords(folder.to_owned()));
-    }
-    Ok(studies)
 }
 
 fn failed(what: &str, error: &dyn std::fmt::Display) -> CaseError {

@@ -11,6 +11,9 @@ pub struct Provenance {
     pub revision: String,
     /// Had the source uncommitted changes?
     pub dirty: bool,
+    /// Hash of the sources that records depend on; empty for records of versions that had none.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub sources: String,
     /// Compiler that built it.
     pub compiler: String,
     /// Threads of the run.

@@ -43,8 +43,8 @@ pub struct RunSummary {
     pub method: String,
     /// How it ended.
     pub status: Status,
-    /// What it cost.
-    pub cost: Cost,
+    /// What it cost; `None` where nobody knows.
+    pub cost: Option<Cost>,
     /// Where it comes from.
     pub provenance: Provenance,
 }

@@ -74,11 +74,12 @@ fn run(method: &str, status: Status, cpu_s: f64) -> RunSummary {
     RunSummary {
         method: method.to_owned(),
         status,
-        cost: cost(cpu_s),
+        cost: Some(cost(cpu_s)),
         provenance: Provenance {
             version: "0.1.0".to_owned(),
             revision: "5775b0f".to_owned(),
             dirty: method == "pml",
+            sources: "c0ffee00c0ffee00".to_owned(),
             compiler: "rustc 1.95.0".to_owned(),
             threads: 2,
             input_hash: "9f86d081884c7d65".to_owned(),

@@ -72,6 +72,15 @@ pub fn read(
         let parsed = text(&file).map(|text| Table::parse(&file, &text));
         parsed.transpose().map_err(|e| of(&file, e))
     };
+    let last = table.column("t").ok().and_then(|times| times.last());
+    if last != Some(&about.end_s) {
+        let reason = format!(
+            "it was cut short: its series end at {} s and not at end_s = {} s",
+            last.copied().unwrap_or_default(),
+            about.end_s
+        );
+        return Err(bad(&main, reason));
+    }
     let energy = part("-energy")?.map(|table| to_series(&table));
     let snapshots = part("-fields")?.map(|table| snapshots(&table));
     Ok(Some(Certified {
@@ -259,5 +268,10 @@ mod tests {
         files[0].1 = files[0].1.replace("-2.5", "NaN");
         assert!(again(&files).is_err());
         assert_eq!(again(&[]).unwrap(), None);
+        let mut files = write(&example()).unwrap();
+        let cut = files[0].1.trim_end().rfind('\n').unwrap();
+        files[0].1.truncate(cut + 1);
+        let error = again(&files).unwrap_err().to_string();
+        assert!(error.contains("cut short"), "{error}");
     }
 }

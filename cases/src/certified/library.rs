@@ -50,7 +50,8 @@ impl Library {
             None => None,
             Some(folder) => file::read(case, &hash, |name| {
                 std::fs::read_to_string(folder.join(name)).ok()
-            })?,
+            })
+            .map_err(|error| damaged(folder, error))?,
         };
         let serves = |found: &Certified| found.about.serves(problem.end_time).is_ok();
         let found = [shipped, own].into_iter().flatten();
@@ -91,5 +92,16 @@ impl Library {
             paths.push(path);
         }
         Ok(paths)
+    }
+}
+
+/// The error of a damaged table with its folder, and what to do.
+fn damaged(folder: &Path, error: CaseError) -> CaseError {
+    match error {
+        CaseError::BadRecord { path, reason } => CaseError::BadRecord {
+            path: folder.join(path),
+            reason: format!("{reason}; without the file, the next comparison computes it again"),
+        },
+        other => other,
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::commands::Options;
 use crate::prepare::Request;
+use crate::resume::Reuse;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -161,7 +162,14 @@ pub struct WorkArgs {
     /// Output format.
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
-    /// Say what would be solved, and stop.
+    /// Go on with a study that was interrupted: runs that are whole, complete and made by this
+    /// program are read back, all others are solved.
+    #[arg(long, conflicts_with = "failed")]
+    resume: bool,
+    /// Solve only those stored runs again that failed, were stopped or are damaged.
+    #[arg(long)]
+    failed: bool,
+    /// Say what would be solved and what taken from disk, and stop.
     #[arg(long)]
     pub dry_run: bool,
 }
@@ -169,7 +177,10 @@ pub struct WorkArgs {
 impl WorkArgs {
     /// The options without methods, with the command as typed.
     pub fn options(&self) -> Options {
-        let typed: Vec<String> = std::env::args().skip(1).collect();
+        // However often it was interrupted, the study is that of the command without these.
+        let how = ["--resume", "--failed"];
+        let typed = std::env::args().skip(1);
+        let typed: Vec<String> = typed.filter(|word| !how.contains(&word.as_str())).collect();
         Options {
             request: self.scene.request(),
             methods: Vec::new(),
@@ -178,6 +189,11 @@ impl WorkArgs {
             jobs: match self.jobs {
                 Some(jobs) => jobs.into(),
                 None => std::thread::available_parallelism().map_or(1, usize::from),
+            },
+            reuse: match (self.resume, self.failed) {
+                (true, _) => Reuse::Whole,
+                (false, true) => Reuse::AllButFailed,
+                (false, false) => Reuse::Nothing,
             },
             command: format!("anechoic {}", typed.join(" ")),
         }

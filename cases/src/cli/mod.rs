@@ -2,8 +2,9 @@
 
 mod args;
 mod print;
+mod print_plan;
 
-use crate::commands::{self, Finished, Plan};
+use crate::commands::{self, Finished, Options, Plan};
 use crate::error::{CaseError, exit};
 use crate::scenes::SCENES;
 use crate::{progress, scene_text};
@@ -42,17 +43,17 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
         Some(Command::Run(solve)) => {
             let options = solve.options();
             let plan = commands::plan_run(&options)?;
-            return solve_or_show(&solve.work, &plan, || commands::run(&options));
+            return solve_or_show(&solve.work, &options, &plan, || commands::run(&options));
         }
         Some(Command::Compare(solve)) => {
             let options = solve.options();
             let plan = commands::plan_compare(&options)?;
-            return solve_or_show(&solve.work, &plan, || commands::compare(&options));
+            return solve_or_show(&solve.work, &options, &plan, || commands::compare(&options));
         }
         Some(Command::Ablation(work)) => {
             let options = work.options();
             let plan = commands::plan_ablation(&options)?;
-            return solve_or_show(work, &plan, || commands::ablation(&options));
+            return solve_or_show(work, &options, &plan, || commands::ablation(&options));
         }
         Some(Command::Reference { scene, into }) => {
             stop_on_interrupt()?;
@@ -64,16 +65,15 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             filter,
             format,
         }) => {
-            let studies = commands::report(folder, filter.as_deref())?;
-            for finished in &studies {
+            let rebuilt = commands::report(folder, filter.as_deref())?;
+            for finished in &rebuilt.studies {
                 eprint!("{}", print::missing(finished));
             }
-            print::out(&print::results(&studies, *format)?);
-            return Ok(studies
-                .iter()
-                .map(Finished::exit_code)
-                .max()
-                .unwrap_or(exit::PASS));
+            for error in &rebuilt.unreadable {
+                eprintln!("error: {error}");
+            }
+            print::out(&print::results(&rebuilt.studies, *format)?);
+            return Ok(rebuilt.exit_code());
         }
     }
     Ok(exit::PASS)
@@ -82,6 +82,7 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
 /// Solves and prints, or says what would be solved.
 fn solve_or_show(
     work: &WorkArgs,
+    options: &Options,
     plan: &Plan,
     command: impl FnOnce() -> Result<Finished, CaseError>,
 ) -> Result<u8, CaseError> {
@@ -89,7 +90,7 @@ fn solve_or_show(
         eprintln!("{method} is left out: {why}");
     }
     if work.dry_run {
-        print::out(&print::plan(plan, &work.out, work.format)?);
+        print::out(&print_plan::plan(plan, options, work.format)?);
         return Ok(exit::PASS);
     }
     stop_on_interrupt()?;

@@ -3,7 +3,7 @@
 use super::args::Format;
 use crate::certified::causality::with_buffers;
 use crate::certified::library::Library;
-use crate::commands::{Finished, Plan, Recomputed};
+use crate::commands::{Finished, Recomputed};
 use crate::error::CaseError;
 use crate::field::short;
 use crate::prepare::Prepared;
@@ -20,7 +20,6 @@ use anechoic_solver::record::Status;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::Write as _;
-use std::path::Path;
 
 /// Time of a point-step (us) where nodes keep their motion, with layers and pictures, as measured on
 /// one core of a server of 2023.
@@ -220,45 +219,6 @@ fn reference(case: &str, problem: &Problem<2>) -> Result<String, CaseError> {
     })
 }
 
-/// What would be solved, and where it would go.
-pub fn plan(plan: &Plan, out: &Path, format: Format) -> Result<String, CaseError> {
-    let folder = |scene: &Prepared| {
-        let folder = out.join(scene.info.name).join(&scene.method);
-        folder.join(scene.hash()).display().to_string()
-    };
-    if format == Format::Json {
-        let runs: Vec<Value> = plan
-            .scenes
-            .iter()
-            .map(|scene| {
-                json!({
-                    "case": scene.info.name,
-                    "profile": scene.profile,
-                    "method": scene.method,
-                    "points": scene.bill.points,
-                    "unknowns": scene.bill.unknowns,
-                    "steps": scene.bill.steps,
-                    "folder": folder(scene),
-                })
-            })
-            .collect();
-        return json_text(&runs);
-    }
-    let mut text = format!("would solve {} runs\n", plan.scenes.len());
-    for scene in &plan.scenes {
-        let _ = writeln!(
-            text,
-            "  {:<14} {} points, {} unknowns, {} steps -> {}",
-            scene.method,
-            format::count(scene.bill.points),
-            format::count(scene.bill.unknowns),
-            format::count(scene.bill.steps),
-            folder(scene),
-        );
-    }
-    Ok(text)
-}
-
 /// What a reference is, what it cost, and how it compares with the one before.
 pub fn recomputed(recomputed: &Recomputed) -> String {
     let about = &recomputed.reference.about;
@@ -384,6 +344,6 @@ fn one_line(value: &toml::Value) -> String {
     }
 }
 
-fn json_text(value: &impl serde::Serialize) -> Result<String, CaseError> {
+pub(super) fn json_text(value: &impl serde::Serialize) -> Result<String, CaseError> {
     store::json(value).map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
 }

@@ -8,9 +8,11 @@ use crate::certified::solve::{compute, difference, measure_floor};
 use crate::error::{CaseError, exit};
 use crate::filter::Filter;
 use crate::prepare::{Prepared, Request, Target};
-use crate::runner::run_all;
+use crate::resume::{Reuse, folder, tasks};
+use crate::runner::{Task, run_all};
 use crate::store::Store;
-use crate::study::{Kind, Published, find_studies, publish};
+use crate::study::stored::{Found, Study, find_studies};
+use crate::study::{Published, publish};
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::Status;
@@ -31,6 +33,8 @@ pub struct Options {
     pub out: PathBuf,
     /// Runs at a time.
     pub jobs: usize,
+    /// What is taken from earlier commands instead of solved.
+    pub reuse: Reuse,
     /// The command as typed, for the report.
     pub command: String,
 }
@@ -47,6 +51,7 @@ impl Options {
             filter: None,
             out: out.to_owned(),
             jobs: 1,
+            reuse: Reuse::Nothing,
             command: format!("anechoic {case}"),
         }
     }
@@ -94,12 +99,12 @@ impl Finished {
         tally.not_evaluated > 0 && tally.pass + tally.fail == 0
     }
 
-    /// The exit code: failed or stopped runs, then failed claims, then claims without a reference or
+    /// The exit code: failed, stopped or damaged runs, then failed claims, then claims without a reference or
     /// none of which could be judged.
     pub fn exit_code(&self) -> u8 {
         let ended = |run: &crate::runner::Run| run.record.status == Status::Complete;
         let failed = |row: &Row| row.verdict == Some(Verdict::Fail);
-        if !self.study.runs.iter().all(ended) {
+        if !self.study.damaged.is_empty() || !self.study.runs.iter().all(ended) {
             exit::SOLVER_FAILED
         } else if self.rows.iter().any(failed) {
             exit::GATE_FAILED
@@ -142,7 +147,7 @@ pub fn plan_compare(options: &Options) -> Result<Plan, CaseError> {
 /// # Errors
 /// Whatever is wrong with the request, found before the solve; [`CaseError::Storage`] after it.
 pub fn run(options: &Options) -> Result<Finished, CaseError> {
-    execute(Plan::run(options)?, Kind::Comparison, options)
+    execute(Plan::run(options)?, options)
 }
 
 /// Solves one scene with all methods that apply, judges and ranks them.
@@ -150,7 +155,7 @@ pub fn run(options: &Options) -> Result<Finished, CaseError> {
 /// # Errors
 /// As [`run`]. A method whose solver fails is no error: it is a run that failed.
 pub fn compare(options: &Options) -> Result<Finished, CaseError> {
-    execute(Plan::compare(options)?, Kind::Comparison, options)
+    execute(Plan::compare(options)?, options)
 }
 
 /// What `ablation` would do.
@@ -166,7 +171,7 @@ pub fn plan_ablation(options: &Options) -> Result<Plan, CaseError> {
 /// # Errors
 /// As [`run`].
 pub fn ablation(options: &Options) -> Result<Finished, CaseError> {
-    execute(Plan::ablation(options)?, Kind::Ablation, options)
+    execute(Plan::ablation(options)?, options)
 }
 
 /// A certified reference that was computed.
@@ -206,37 +211,85 @@ pub fn reference(request: &Request, folder: &Path) -> Result<Recomputed, CaseErr
     })
 }
 
-/// Judges and shows stored studies again, without solving.
-///
-/// # Errors
-/// [`CaseError::NoRecords`], and what is wrong with a record.
-pub fn report(folder: &Path, filter: Option<&str>) -> Result<Vec<Finished>, CaseError> {
-    let filter = filter.map(|text| Filter(text.to_owned()));
-    find_studies(folder)?
-        .into_iter()
-        .map(|study| {
-            let published = publish(&study.folder, study.runs, study.kind, &study.command)?;
-            Finished::new(published, filter.as_ref())
-        })
-        .collect()
+/// Studies that were judged again from their records.
+#[derive(Debug)]
+pub struct Rebuilt {
+    /// The studies; what is damaged in them is in their notes.
+    pub studies: Vec<Finished>,
+    /// What is wrong with studies of which nothing can be read.
+    pub unreadable: Vec<CaseError>,
 }
 
-fn execute(plan: Plan, kind: Kind, options: &Options) -> Result<Finished, CaseError> {
-    let store = Store::open(&options.out, &kind.folder(plan.case()))?;
-    provide_references(&plan, &Library::of_results(&options.out))?;
-    let runs = run_all(plan.scenes, options.jobs, &store)?;
-    Finished::new(
-        publish(store.folder(), runs, kind, &options.command)?,
-        plan.filter.as_ref(),
-    )
+impl Rebuilt {
+    /// The exit code: that of the worst study.
+    pub fn exit_code(&self) -> u8 {
+        if !self.unreadable.is_empty() {
+            return exit::SOLVER_FAILED;
+        }
+        let codes: Vec<u8> = self.studies.iter().map(Finished::exit_code).collect();
+        let has = |code: &u8| codes.contains(code);
+        let worst = [exit::SOLVER_FAILED, exit::GATE_FAILED, exit::REFERENCE_MISSING];
+        worst.into_iter().find(has).unwrap_or(exit::PASS)
+    }
+}
+
+/// Judges and shows stored studies again, without solving. Runs whose records are damaged are named
+/// and the others shown.
+///
+/// # Errors
+/// [`CaseError::NoRecords`], and when the report cannot be written.
+pub fn report(folder: &Path, filter: Option<&str>) -> Result<Rebuilt, CaseError> {
+    let filter = filter.map(|text| Filter(text.to_owned()));
+    let Found {
+        studies,
+        unreadable,
+    } = find_studies(folder)?;
+    let studies = studies
+        .into_iter()
+        .map(|study| Finished::new(publish(study)?, filter.as_ref()))
+        .collect::<Result<_, CaseError>>()?;
+    Ok(Rebuilt {
+        studies,
+        unreadable,
+    })
+}
+
+fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
+    let store = Store::open(&options.out, &plan.folder())?;
+    if options.reuse != Reuse::Nothing {
+        // What is half written there is of a command that was killed.
+        for scene in &plan.scenes {
+            store.sweep(&folder(scene))?;
+        }
+    }
+    let (tasks, left_out) = tasks(plan.scenes, store.folder(), options.reuse)?;
+    let study = Study {
+        folder: store.folder().to_owned(),
+        kind: plan.kind,
+        command: options.command.clone(),
+        order: tasks.iter().map(|task| folder(task.scene())).collect(),
+        runs: Vec::new(),
+        damaged: Vec::new(),
+    };
+    let scenes = tasks.iter().map(Task::scene);
+    provide_references(scenes, &Library::of_results(&options.out))?;
+    study.announce()?;
+    let runs = run_all(tasks, options.jobs, &store)?;
+    let mut finished = Finished::new(publish(Study { runs, ..study })?, plan.filter.as_ref())?;
+    let notes = &mut finished.study.notes;
+    notes.extend(left_out.into_iter().map(|(method, why)| format!("{method} is left out: {why}")));
+    Ok(finished)
 }
 
 /// Solves for the certified references that the scenes need and that nobody has stored.
 ///
 /// One that cannot be computed is no error here: the runs go on, and their claims say why they were
 /// not evaluated.
-fn provide_references(plan: &Plan, library: &Library) -> Result<(), CaseError> {
-    for scene in &plan.scenes {
+fn provide_references<'a>(
+    scenes: impl Iterator<Item = &'a Prepared>,
+    library: &Library,
+) -> Result<(), CaseError> {
+    for scene in scenes {
         let Some(problem) = scene.scene.extended() else {
             continue;
         };

@@ -7,12 +7,15 @@ use crate::judge::CERTIFIER;
 use crate::prepare::{Prepared, Target};
 use crate::scene::SceneInfo;
 use crate::scenes::SCENES;
+use crate::study::Kind;
 use anechoic_reference::claim::Evidence;
 use anechoic_reports::norms::{group_of, group_worst};
 
 /// Scenes ready to run.
 #[derive(Debug)]
 pub struct Plan {
+    /// What they are solved for.
+    pub kind: Kind,
     /// The scenes, in the order of the comparison.
     pub scenes: Vec<Prepared>,
     /// Which rows are asked for.
@@ -40,6 +43,7 @@ impl Plan {
             filter.methods(&[&scene.method], &places(&scene))?;
         }
         Ok(Plan {
+            kind: Kind::Comparison,
             scenes: vec![scene],
             filter,
             left_out: Vec::new(),
@@ -120,6 +124,7 @@ impl Plan {
         }
         refuse_unused(&unused_everywhere(&scenes))?;
         Ok(Plan {
+            kind: Kind::Comparison,
             scenes,
             filter,
             left_out,
@@ -150,15 +155,17 @@ impl Plan {
             .collect::<Result<Vec<_>, _>>()?;
         refuse_unused(&unused_everywhere(&scenes))?;
         Ok(Plan {
+            kind: Kind::Ablation,
             scenes,
             filter,
             left_out: Vec::new(),
         })
     }
 
-    /// The case.
-    pub fn case(&self) -> &'static str {
-        self.scenes.first().map_or("", |scene| scene.info.name)
+    /// Folder of the study in a results folder.
+    pub fn folder(&self) -> String {
+        let first = self.scenes.first();
+        self.kind.folder(first.map_or("", |scene| scene.info.name))
     }
 }
 

@@ -60,7 +60,7 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
         {
             missing.push(reason.clone());
         }
-        let rows = rows_of(run, &numbers, obstacle.err());
+        let rows = rows_of(run, &run.manifest.method, &numbers, obstacle.err());
         for reason in missing {
             let concerns =
                 |row: &Row| row.verdict == Some(Verdict::NotEvaluated) && row.why == reason;
@@ -78,13 +78,23 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
     judged
 }
 
-/// The claims on this run's method, judged or with the reason why not, and all other numbers.
-fn rows_of(run: &Run, numbers: &[Measurement], obstacle: Option<String>) -> Vec<Row> {
+/// The claims on a method whose run cannot be read, with the reason; `like` is another run of its study.
+pub fn rows_unread(like: &Run, method: &str, reason: &str) -> Vec<Row> {
+    rows_of(like, method, &[], Some(reason.to_owned()))
+}
+
+/// The claims on a run's method, judged or with the reason why not, and all other numbers.
+fn rows_of(
+    run: &Run,
+    method: &str,
+    numbers: &[Measurement],
+    obstacle: Option<String>,
+) -> Vec<Row> {
     let (case, profile) = (&run.manifest.case, &run.manifest.profile);
     let mut apply: Vec<Claim> = Vec::new();
     let mut reasons: Vec<(Claim, String)> = Vec::new();
     for claim in run.prepared.scene.claims() {
-        if claim.claim.method != run.manifest.method {
+        if claim.claim.method != method {
             continue;
         }
         match obstacle.clone().or(claim.not_here) {

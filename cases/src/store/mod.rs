@@ -7,7 +7,9 @@
 //! | `metrics.json` | the rows of this run |
 //! | `receivers.csv`, `energy.csv` | series |
 //! | `record.json` | names and units of the series' columns, fields along lines, snapshots |
+//! | `SHA256SUMS` | hashes of the files, by which a record that is no longer whole is found |
 
+mod sums;
 mod table;
 
 use crate::error::CaseError;
@@ -21,6 +23,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use sums::SUMS;
 use table::ColumnHead;
 
 /// What is known of a run beside its record.
@@ -48,6 +51,9 @@ impl Manifest {
         Path::new(&self.method).join(&self.hash)
     }
 }
+
+/// Prefix of folders in which a run is being written; nothing reads them.
+const UNFINISHED: &str = ".unfinished-";
 
 /// What `record.json` holds.
 #[derive(Debug, Serialize, Deserialize)]
@@ -93,6 +99,22 @@ impl Store {
         self.folder.join(manifest.folder())
     }
 
+    /// Takes away what a program that was killed has left of a run: folders that were not renamed.
+    ///
+    /// # Errors
+    /// [`CaseError::Storage`].
+    pub fn sweep(&self, run: &Path) -> Result<(), CaseError> {
+        let parent = self.folder.join(run);
+        let entries = parent.parent().map(std::fs::read_dir);
+        for entry in entries.into_iter().flatten().flatten().flatten() {
+            if entry.file_name().to_string_lossy().starts_with(UNFINISHED) {
+                let path = entry.path();
+                std::fs::remove_dir_all(&path).map_err(|source| CaseError::Storage { path, source })?;
+            }
+        }
+        Ok(())
+    }
+
     /// Stores a run; an earlier one of the same input is replaced when the new one is whole.
     ///
     /// # Errors
@@ -106,7 +128,7 @@ impl Store {
         };
         std::fs::create_dir_all(parent).map_err(|e| failed(parent, e))?;
         let new = tempfile::Builder::new()
-            .prefix(".unfinished-")
+            .prefix(UNFINISHED)
             .tempdir_in(parent)
             .map_err(|e| failed(parent, e))?;
         let record = &run.record;
@@ -116,14 +138,19 @@ impl Store {
             lines: record.lines.clone(),
             snapshots: record.snapshots.clone(),
         };
-        let write = |name: &str, bytes: &[u8]| {
-            std::fs::write(new.path().join(name), bytes).map_err(|e| failed(&folder.join(name), e))
-        };
-        write("scene.toml", scene_text::write(&run.prepared).as_bytes())?;
-        write("manifest.json", &json(&run.manifest)?)?;
-        write("receivers.csv", &table::write(&record.receivers)?)?;
-        write("energy.csv", &table::write(&record.energy)?)?;
-        write("record.json", &compact_json(&fields)?)?;
+        let scene = scene_text::write(&run.prepared).into_bytes();
+        let mut files = vec![
+            ("scene.toml", scene),
+            ("manifest.json", json(&run.manifest)?),
+            ("receivers.csv", table::write(&record.receivers)?),
+            ("energy.csv", table::write(&record.energy)?),
+            ("record.json", compact_json(&fields)?),
+        ];
+        files.push((SUMS, sums::write(&files).into_bytes()));
+        for (name, content) in &files {
+            std::fs::write(new.path().join(name), content)
+                .map_err(|e| failed(&folder.join(name), e))?;
+        }
         if folder.exists() {
             std::fs::remove_dir_all(&folder).map_err(|e| failed(&folder, e))?;
         }
@@ -144,11 +171,17 @@ pub fn save_rows(case_folder: &Path, manifest: &Manifest, rows: &[Row]) -> Resul
     write_file(&path, &json(&own)?)
 }
 
-/// Reads a run back.
+/// Reads a run back, if every file is what it was when it was written.
 ///
 /// # Errors
 /// [`CaseError::Read`], [`CaseError::BadRecord`], and what the scene's file says.
 pub fn load(folder: &Path) -> Result<Run, CaseError> {
+    if !folder.is_dir() {
+        return Err(CaseError::BadRecord {
+            path: folder.to_owned(),
+            reason: "the run's folder is missing".into(),
+        });
+    }
     let manifest: Manifest = read_json(&folder.join("manifest.json"))?;
     let fields: Fields = read_json(&folder.join("record.json"))?;
     let scene = folder.join("scene.toml");
@@ -168,14 +201,18 @@ pub fn load(folder: &Path) -> Result<Run, CaseError> {
             ),
         });
     }
+    let complete = manifest.status == Status::Complete;
+    let series = |name: &str, heads| table::read(&folder.join(name), heads, complete);
     let record = Record {
         status: manifest.status.clone(),
-        receivers: table::read(&folder.join("receivers.csv"), &fields.receivers)?,
-        energy: table::read(&folder.join("energy.csv"), &fields.energy)?,
+        receivers: series("receivers.csv", &fields.receivers)?,
+        energy: series("energy.csv", &fields.energy)?,
         lines: fields.lines,
         snapshots: fields.snapshots,
         cost: manifest.cost.clone(),
     };
+    // Last, since the errors above say more.
+    sums::check(folder)?;
     Ok(Run {
         prepared,
         manifest,

@@ -83,11 +83,12 @@ pub fn write(table: &SeriesTable) -> Result<Vec<u8>, CaseError> {
         .map_err(|error| failed(error.to_string()))
 }
 
-/// The table out of CSV; its header must be that of `heads`.
+/// The table out of CSV; its header must be that of `heads`, and its numbers finite if the run that
+/// it belongs to is `complete`.
 ///
 /// # Errors
-/// [`CaseError::BadRecord`] with the line.
-pub fn read(path: &Path, heads: &[ColumnHead]) -> Result<SeriesTable, CaseError> {
+/// [`CaseError::BadRecord`] with line and column.
+pub fn read(path: &Path, heads: &[ColumnHead], complete: bool) -> Result<SeriesTable, CaseError> {
     let failed = |reason: String| CaseError::BadRecord {
         path: path.to_owned(),
         reason,
@@ -119,10 +120,15 @@ pub fn read(path: &Path, heads: &[ColumnHead]) -> Result<SeriesTable, CaseError>
         let record = record.map_err(|error| failed(error.to_string()))?;
         let mut numbers = Vec::with_capacity(record.len());
         for text in &record {
-            let number: f64 = text
-                .parse()
-                .map_err(|_| failed(format!("line {}: `{text}` is not a number", index + 2)))?;
-            numbers.push(number);
+            let number = text.parse().ok();
+            let number = number.filter(|x: &f64| x.is_finite() || !complete);
+            numbers.push(number.ok_or_else(|| {
+                let column = &wanted[numbers.len()];
+                failed(format!(
+                    "line {}, column {column}: `{text}` is not a finite number",
+                    index + 2
+                ))
+            })?);
         }
         times.push(numbers[0]);
         for (column, number) in columns.iter_mut().zip(&numbers[1..]) {
@@ -158,7 +164,7 @@ mod tests {
         std::fs::write(&path, write(&table()).unwrap()).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.starts_with("t_s,A_uy_m,A_vy_m_s\n"), "{text}");
-        assert_eq!(read(&path, &heads(&table())).unwrap(), table());
+        assert_eq!(read(&path, &heads(&table()), true).unwrap(), table());
     }
 
     #[test]
@@ -167,11 +173,12 @@ mod tests {
         let path = folder.path().join("receivers.csv");
         let refused = |text: &str| {
             std::fs::write(&path, text).unwrap();
-            read(&path, &heads(&table())).unwrap_err().to_string()
+            read(&path, &heads(&table()), true).unwrap_err().to_string()
         };
         assert!(refused("t_s,A_uy_m\n0,1\n").contains("A_vy_m_s"));
         assert!(refused("t_s,A_uy_m,A_vy_m_s\n0,1,2\n0.1,1\n").contains("line: 3"));
-        assert!(refused("t_s,A_uy_m,A_vy_m_s\n0,1,x\n").contains("line 2"));
+        assert!(refused("t_s,A_uy_m,A_vy_m_s\n0,1,x\n").contains("line 2, column A_vy_m_s"));
+        assert!(refused("t_s,A_uy_m,A_vy_m_s\n0,NaN,1\n").contains("line 2, column A_uy_m"));
         let mut short = table();
         short.columns[0].values.pop();
         assert!(write(&short).is_err());

@@ -153,19 +153,29 @@ pub(super) fn cost(runs: &[RunSummary]) -> Markup {
                         tr {
                             td.name { (run.method) }
                             td { (status_badge(&run.status)) }
-                            td.number { (format::count(run.cost.steps)) }
-                            td.number { (format::count(run.cost.points)) }
-                            td.number { (format::count(run.cost.unknowns)) }
-                            td.number { (format::count(run.cost.iterations)) }
-                            td.number { (format::number(run.cost.cpu_s)) }
-                            td.number { (format::number(run.cost.wall_s)) }
-                            td.number { (format::bytes(run.cost.peak_bytes as f64)) }
-                            td { (run.cost.linear_solver) }
+                            @for number in cost_cells(run) { td.number { (number) } }
+                            td { (run.cost.as_ref().map_or("", |cost| &cost.linear_solver)) }
                         }
                     }
                 }
             }
         }
+    }
+}
+
+/// Steps, points, unknowns, iterations, times, memory; a dash each where nobody knows.
+fn cost_cells(run: &RunSummary) -> [String; 7] {
+    match &run.cost {
+        None => std::array::from_fn(|_| "–".to_owned()),
+        Some(cost) => [
+            format::count(cost.steps),
+            format::count(cost.points),
+            format::count(cost.unknowns),
+            format::count(cost.iterations),
+            format::number(cost.cpu_s),
+            format::number(cost.wall_s),
+            format::bytes(cost.peak_bytes as f64),
+        ],
     }
 }
 
