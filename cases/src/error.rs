@@ -138,6 +138,14 @@ pub enum CaseError {
         /// What is wrong with its first run.
         reason: String,
     },
+    /// Rows that should be there and cannot be read.
+    #[error("{}: its rows cannot be read: {reason}; `anechoic report` makes them again from the records", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
     /// A folder without records.
     #[error("{}: holds no records; `anechoic compare CASE --out DIR` makes some", .0.display())]
     NoRecords(PathBuf),
@@ -189,6 +197,7 @@ impl CaseError {
             | CaseError::Solver(_)
             | CaseError::Stopped(_)
             | CaseError::NothingWhole { .. }
+            | CaseError::Unreadable { .. }
             | CaseError::Report { .. } => exit::SOLVER_FAILED,
         }
     }

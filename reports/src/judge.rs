@@ -67,6 +67,18 @@ pub fn measurements(
     }
 }
 
+/// Metrics that tell what a run cost.
+pub const COSTS: [&str; 8] = [
+    "cpu_s",
+    "wall_s",
+    "peak_bytes",
+    "steps",
+    "iterations",
+    "unknowns",
+    "points",
+    "us_per_point_step",
+];
+
 /// The cost rows of a run.
 pub fn cost_measurements(method: &str, cost: &Cost) -> Vec<Measurement> {
     let point_steps = cost.points as f64 * cost.steps as f64;

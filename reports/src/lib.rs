@@ -11,11 +11,13 @@
 //! - [`row`]: the flat rows that everything ends in.
 //! - [`ranking`]: methods by their echo, cost beside it, down to the floor of the reference.
 //! - [`table`], [`export`]: rows for the terminal and for other programs.
+//! - [`diff`](mod@diff): what changed from one list of rows to another.
 //! - [`plot`]: pictures as SVG and PNG, one file a kind.
 //! - [`study`]: everything that a report shows, as data; [`provenance`]: where a result comes from.
 //! - [`html`]: the report as one self-contained page.
 //! - [`format`](mod@format): numbers as readers want them.
 
+pub mod diff;
 pub mod export;
 pub mod format;
 pub mod html;

@@ -122,14 +122,14 @@ pub fn value_text(row: &Row) -> String {
 const STYLE: TableStyle =
     TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
 
-fn new_table(header: &[&str]) -> Table {
+pub(crate) fn new_table(header: &[&str]) -> Table {
     let mut table = Table::new();
     table.load_style(STYLE);
     table.set_header(header.iter().copied());
     table
 }
 
-fn align_right(table: &mut Table, columns: &[usize]) {
+pub(crate) fn align_right(table: &mut Table, columns: &[usize]) {
     for index in columns {
         if let Some(column) = table.column_mut(*index) {
             column.set_cell_alignment(CellAlignment::Right);
@@ -137,7 +137,7 @@ fn align_right(table: &mut Table, columns: &[usize]) {
     }
 }
 
-fn finish(table: &Table, notes: &str) -> String {
+pub(crate) fn finish(table: &Table, notes: &str) -> String {
     format!("{}\n{notes}", table.trim_fmt())
 }
 

@@ -3,6 +3,7 @@
 use crate::commands::Options;
 use crate::prepare::Request;
 use crate::resume::Reuse;
+use anechoic_reports::diff::REL_TOL;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -80,6 +81,23 @@ pub enum Command {
         /// `results`, those of `reference/data/certified` become part of the program when it is built.
         #[arg(long, value_name = "DIR", default_value = "results/certified")]
         into: PathBuf,
+    },
+    /// What changed from one results folder, study or run to another: numbers, verdicts, rows.
+    ///
+    /// What the runs cost is listed apart and never counted. Ends with 0 when nothing changed, 1 when
+    /// something did.
+    Diff {
+        /// Results folder, study (a case's folder or its summary.json) or run before.
+        before: PathBuf,
+        /// The same after.
+        after: PathBuf,
+        /// Numbers closer than this share of the larger one are the same. What the solver's
+        /// tolerance of 1e-10 leaves open in an echo of 1e-4 is 1e-6 of it.
+        #[arg(long, value_name = "SHARE", default_value_t = REL_TOL, value_parser = share)]
+        rel_tol: f64,
+        /// Output format.
+        #[arg(long, value_enum, default_value_t)]
+        format: Format,
     },
     /// Rebuild rows, pictures and report from records, without solving.
     Report {
@@ -197,6 +215,16 @@ impl WorkArgs {
             },
             command: format!("anechoic {}", typed.join(" ")),
         }
+    }
+}
+
+/// A share: from 0 to 1.
+fn share(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if (0.0..=1.0).contains(&number) {
+        Ok(number)
+    } else {
+        Err("allowed: 0 <= value <= 1".to_owned())
     }
 }
 

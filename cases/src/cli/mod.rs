@@ -8,7 +8,8 @@ use crate::commands::{self, Finished, Options, Plan};
 use crate::error::{CaseError, exit};
 use crate::scenes::SCENES;
 use crate::{progress, scene_text};
-use args::{Arguments, Command, WorkArgs};
+use anechoic_reports::diff::diff_table;
+use args::{Arguments, Command, Format, WorkArgs};
 use clap::Parser;
 
 /// Runs the program; returns its exit code.
@@ -59,6 +60,22 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             stop_on_interrupt()?;
             let recomputed = commands::reference(&scene.request(), into)?;
             print::out(&print::recomputed(&recomputed));
+        }
+        Some(Command::Diff {
+            before,
+            after,
+            rel_tol,
+            format,
+        }) => {
+            let diff = commands::compare_rows(before, after, *rel_tol)?;
+            let text = match format {
+                Format::Table => diff_table(&diff, *rel_tol),
+                Format::Json => print::json_text(&diff.changes)?,
+            };
+            print::out(&text);
+            if !diff.is_same() {
+                return Ok(exit::GATE_FAILED);
+            }
         }
         Some(Command::Report {
             folder,

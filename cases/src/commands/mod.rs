@@ -1,5 +1,6 @@
 //! What the program does, for callers that are not its command line: nothing here prints.
 
+mod diff;
 mod plan;
 
 use crate::certified::Certified;
@@ -16,6 +17,7 @@ use crate::study::{Published, publish};
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::Status;
+pub use diff::compare_rows;
 pub use plan::Plan;
 use std::path::{Path, PathBuf};
 
