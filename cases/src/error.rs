@@ -138,6 +138,16 @@ pub enum CaseError {
         /// What is wrong with its first run.
         reason: String,
     },
+    /// Series of another program that do not fit the scene.
+    #[error("{}:{line}: {message}", path.display())]
+    Series {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// The column and what is wrong with it.
+        message: String,
+    },
     /// Rows that should be there and cannot be read.
     #[error("{}: its rows cannot be read: {reason}; `anechoic report` makes them again from the records", path.display())]
     Unreadable {
@@ -190,6 +200,7 @@ impl CaseError {
             | CaseError::Output { .. }
             | CaseError::BadRecord { .. }
             | CaseError::NoRecords(_)
+            | CaseError::Series { .. }
             | CaseError::Filter { .. }
             | CaseError::Usage(_)
             | CaseError::Solver(SolverError::Setup { .. }) => exit::USAGE,

@@ -5,7 +5,7 @@
 //! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
 //! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
 //! - [`runner`], [`progress`]: solving; [`store`]: records on disk; [`resume`]: those that are read
-//!   back instead of solved.
+//!   back instead of solved; [`foreign`]: series of other programs.
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
 //! - [`commands`], [`cli`]: the program.
@@ -18,6 +18,7 @@ pub mod draft;
 pub mod error;
 pub mod field;
 pub mod filter;
+pub mod foreign;
 pub mod judge;
 pub mod pictures;
 pub mod prepare;

@@ -157,6 +157,7 @@ mod tests {
             cost: Cost::default(),
             provenance: provenance::of(&hash),
             hash,
+            scored: None,
         };
         change(&mut manifest);
         let record = Record {

@@ -4,11 +4,13 @@ use crate::error::CaseError;
 use crate::prepare::Prepared;
 use crate::progress::Progress;
 use crate::provenance;
+use crate::resume::folder;
 use crate::store::{Manifest, Store};
 use anechoic_solver::record::{Cost, Record, SeriesTable, Status};
 use anechoic_solver::solve;
 use cpu_time::ThreadTime;
 use rayon::prelude::*;
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// A scene with what it left.
@@ -44,6 +46,14 @@ impl Task {
         match self {
             Task::Solve(scene) => scene,
             Task::Take(run) => &run.prepared,
+        }
+    }
+
+    /// Folder of the run below that of its study.
+    pub fn folder(&self) -> PathBuf {
+        match self {
+            Task::Solve(scene) => folder(scene),
+            Task::Take(run) => run.manifest.folder(),
         }
     }
 
@@ -115,6 +125,7 @@ fn run_one(prepared: Prepared, progress: &Progress) -> Run {
         cost: record.cost.clone(),
         provenance: provenance::of(&hash),
         hash,
+        scored: None,
     };
     Run {
         prepared,

@@ -99,6 +99,10 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
     let gallery = pictures::draw(&study.runs, study.kind, &ranking, &references);
     let mut notes = judged.notes;
     notes.extend(gallery.notes);
+    for run in &study.runs {
+        let done = run.manifest.scored.iter().flat_map(|scored| &scored.notes);
+        notes.extend(done.map(|note| format!("{}: {note}", run.manifest.method)));
+    }
     let mut figures = Vec::new();
     for picture in &gallery.pictures {
         match save_picture(folder, picture) {
@@ -186,7 +190,10 @@ fn summary_of_run(run: &Run) -> RunSummary {
     RunSummary {
         method: run.manifest.method.clone(),
         status: run.record.status.clone(),
-        cost: Some(run.record.cost.clone()),
+        cost: match run.manifest.scored {
+            Some(_) => None,
+            None => Some(run.record.cost.clone()),
+        },
         provenance: run.manifest.provenance.clone(),
     }
 }

@@ -109,6 +109,7 @@ pub fn judged(methods: &[&str], change: impl Fn(&str, &mut Problem<2>)) -> Vec<R
                 cost: record.cost.clone(),
                 provenance: provenance::of(&hash),
                 hash,
+                scored: None,
             },
             prepared,
             record,

@@ -61,8 +61,8 @@ fn every_claim_holds_and_the_report_is_made_again_from_records() {
     assert!(value(&finished.rows, "extended", "serves_until_s", "run") > 4.0);
 
     let again = report(out.path(), None).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(again.len(), 1);
-    assert_eq!(again[0].rows, finished.rows);
+    assert_eq!(again.studies.len(), 1);
+    assert_eq!(again.studies[0].rows, finished.rows);
 }
 
 #[test]

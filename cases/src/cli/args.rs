@@ -1,6 +1,6 @@
 //! Arguments.
 
-use crate::commands::Options;
+use crate::commands::{Options, ScoreOptions};
 use crate::prepare::Request;
 use crate::resume::Reuse;
 use anechoic_reports::diff::REL_TOL;
@@ -57,6 +57,10 @@ pub enum Command {
         /// Print the file to edit.
         #[arg(long)]
         toml: bool,
+        /// Write what another program needs to solve it (mesh, material, load, receivers, reference)
+        /// into a folder, as plain files.
+        #[arg(long, value_name = "DIR", conflicts_with = "toml")]
+        export: Option<PathBuf>,
         /// Output format.
         #[arg(long, value_enum, default_value_t)]
         format: Format,
@@ -82,6 +86,11 @@ pub enum Command {
         #[arg(long, value_name = "DIR", default_value = "results/certified")]
         into: PathBuf,
     },
+    /// Judge the receivers' series of another program by the rows of ours, beside them.
+    ///
+    /// `show CASE --export DIR` writes what the program needs, and what its file must be like. Our
+    /// runs come from --out; the standard run is solved if it is not there.
+    Score(ScoreArgs),
     /// What changed from one results folder, study or run to another: numbers, verdicts, rows.
     ///
     /// What the runs cost is listed apart and never counted. Ends with 0 when nothing changed, 1 when
@@ -195,10 +204,6 @@ pub struct WorkArgs {
 impl WorkArgs {
     /// The options without methods, with the command as typed.
     pub fn options(&self) -> Options {
-        // However often it was interrupted, the study is that of the command without these.
-        let how = ["--resume", "--failed"];
-        let typed = std::env::args().skip(1);
-        let typed: Vec<String> = typed.filter(|word| !how.contains(&word.as_str())).collect();
         Options {
             request: self.scene.request(),
             methods: Vec::new(),
@@ -213,9 +218,61 @@ impl WorkArgs {
                 (false, true) => Reuse::AllButFailed,
                 (false, false) => Reuse::Nothing,
             },
-            command: format!("anechoic {}", typed.join(" ")),
+            command: typed(),
         }
     }
+}
+
+/// Which series, and what they are judged by.
+#[derive(Debug, Args)]
+pub struct ScoreArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// The series: `t_s`, `NAME_ux_m`, `NAME_uy_m` of every receiver; velocities if you have them.
+    #[arg(value_name = "SERIES.csv")]
+    series: PathBuf,
+    /// Its name in rows [default: the file's without its ending].
+    #[arg(long)]
+    name: Option<String>,
+    /// The method of ours that its boundary is a model of: its claims judge the series.
+    #[arg(long)]
+    method: Option<String>,
+    /// Only rows whose METHOD/METRIC/WHERE contains this.
+    #[arg(long)]
+    filter: Option<String>,
+    /// Results folder.
+    #[arg(long, value_name = "DIR", default_value = "results")]
+    out: PathBuf,
+    /// Output format.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+impl ScoreArgs {
+    /// The options, with the command as typed.
+    pub fn options(&self) -> ScoreOptions {
+        ScoreOptions {
+            common: Options {
+                request: self.scene.request(),
+                methods: self.method.iter().cloned().collect(),
+                filter: self.filter.clone(),
+                out: self.out.clone(),
+                jobs: 1,
+                reuse: Reuse::AllButFailed,
+                command: typed(),
+            },
+            series: self.series.clone(),
+            name: self.name.clone(),
+        }
+    }
+}
+
+/// The command as typed. However often it was interrupted, a study is that of the command without
+/// the words that say how to go on.
+fn typed() -> String {
+    let words = std::env::args().skip(1);
+    let words: Vec<String> = words.filter(|w| w != "--resume" && w != "--failed").collect();
+    format!("anechoic {}", words.join(" "))
 }
 
 /// A share: from 0 to 1.

@@ -11,6 +11,10 @@ use crate::{progress, scene_text};
 use anechoic_reports::diff::diff_table;
 use args::{Arguments, Command, Format, WorkArgs};
 use clap::Parser;
+use std::path::Path;
+
+/// Where results lie by default, and with them references that were solved for.
+const RESULTS: &str = "results";
 
 /// Runs the program; returns its exit code.
 pub fn main() -> u8 {
@@ -32,9 +36,15 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             scene,
             method,
             toml,
+            export,
             format,
         }) => {
             let prepared = commands::show(&scene.request(), method.as_deref())?;
+            if let Some(folder) = export {
+                let exported = commands::export(&prepared, folder, Path::new(RESULTS))?;
+                print::out(&print_plan::exported(&exported));
+                return Ok(exit::PASS);
+            }
             let text = match (toml, format) {
                 (true, _) => scene_text::write(&prepared),
                 (false, format) => print::show(&prepared, *format)?,
@@ -60,6 +70,10 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             stop_on_interrupt()?;
             let recomputed = commands::reference(&scene.request(), into)?;
             print::out(&print::recomputed(&recomputed));
+        }
+        Some(Command::Score(score)) => {
+            stop_on_interrupt()?;
+            return print_finished(commands::score(&score.options())?, score.format);
         }
         Some(Command::Diff {
             before,
@@ -111,10 +125,14 @@ fn solve_or_show(
         return Ok(exit::PASS);
     }
     stop_on_interrupt()?;
-    let finished = command()?;
+    print_finished(command()?, work.format)
+}
+
+/// Prints what came of a study; returns the exit code.
+fn print_finished(finished: Finished, format: Format) -> Result<u8, CaseError> {
     let code = finished.exit_code();
     eprint!("{}", print::missing(&finished));
-    print::out(&print::results(&[finished], work.format)?);
+    print::out(&print::results(&[finished], format)?);
     Ok(code)
 }
 

@@ -2,7 +2,7 @@
 
 use super::args::Format;
 use super::print::json_text;
-use crate::commands::{Options, Plan};
+use crate::commands::{Exported, Options, Plan};
 use crate::error::CaseError;
 use crate::prepare::Prepared;
 use crate::resume::{Decision, Reuse, folder};
@@ -59,4 +59,17 @@ pub fn plan(plan: &Plan, options: &Options, format: Format) -> Result<String, Ca
         }
     }
     Ok(text)
+}
+
+/// The files of a scene that was exported, and what its reference is.
+pub fn exported(exported: &Exported) -> String {
+    let mut text = String::new();
+    for file in &exported.files {
+        let _ = writeln!(text, "{}", file.display());
+    }
+    let _ = match &exported.reference {
+        Ok(name) => writeln!(text, "the reference is {name}"),
+        Err(why) => writeln!(text, "there is no reference: {why}"),
+    };
+    text
 }

@@ -1,7 +1,9 @@
 //! What the program does, for callers that are not its command line: nothing here prints.
 
 mod diff;
+mod export;
 mod plan;
+mod score;
 
 use crate::certified::Certified;
 use crate::certified::library::Library;
@@ -13,12 +15,14 @@ use crate::resume::{Reuse, folder, tasks};
 use crate::runner::{Task, run_all};
 use crate::store::Store;
 use crate::study::stored::{Found, Study, find_studies};
-use crate::study::{Published, publish};
+use crate::study::{Kind, Published, publish};
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::Status;
 pub use diff::compare_rows;
+pub use export::{Exported, export};
 pub use plan::Plan;
+pub use score::{ScoreOptions, score};
 use std::path::{Path, PathBuf};
 
 /// What `run` and `compare` are asked.
@@ -265,22 +269,34 @@ fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
         }
     }
     let (tasks, left_out) = tasks(plan.scenes, store.folder(), options.reuse)?;
+    let mut finished = execute_tasks(tasks, &store, plan.filter.as_ref(), plan.kind, options)?;
+    let left_out = left_out.into_iter();
+    let notes = left_out.map(|(method, why)| format!("{method} is left out: {why}"));
+    finished.study.notes.extend(notes);
+    Ok(finished)
+}
+
+/// Does what there is to do for a study and publishes it.
+fn execute_tasks(
+    tasks: Vec<Task>,
+    store: &Store,
+    filter: Option<&Filter>,
+    kind: Kind,
+    options: &Options,
+) -> Result<Finished, CaseError> {
     let study = Study {
         folder: store.folder().to_owned(),
-        kind: plan.kind,
+        kind,
         command: options.command.clone(),
-        order: tasks.iter().map(|task| folder(task.scene())).collect(),
+        order: tasks.iter().map(|task| task.folder()).collect(),
         runs: Vec::new(),
         damaged: Vec::new(),
     };
     let scenes = tasks.iter().map(Task::scene);
     provide_references(scenes, &Library::of_results(&options.out))?;
     study.announce()?;
-    let runs = run_all(tasks, options.jobs, &store)?;
-    let mut finished = Finished::new(publish(Study { runs, ..study })?, plan.filter.as_ref())?;
-    let notes = &mut finished.study.notes;
-    notes.extend(left_out.into_iter().map(|(method, why)| format!("{method} is left out: {why}")));
-    Ok(finished)
+    let runs = run_all(tasks, options.jobs, store)?;
+    Finished::new(publish(Study { runs, ..study })?, filter)
 }
 
 /// Solves for the certified references that the scenes need and that nobody has stored.

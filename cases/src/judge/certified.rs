@@ -38,7 +38,7 @@ pub(super) fn measure(
     // A scene with a stored reference has no need of a run.
     let asked = run.prepared.scene.extended().is_none()
         && run.prepared.scene.claims().iter().any(|claim| {
-            claim.claim.method == *method
+            run.manifest.judged_as() == Some(&claim.claim.method)
                 && claim.claim.evidence == Evidence::Certified
                 && claim.not_here.is_none()
         });

@@ -44,7 +44,11 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
     let extended = certified::certifier(runs);
     let mut judged = Judged::default();
     for (index, run) in runs.iter().enumerate() {
-        let mut numbers = cost_measurements(&run.manifest.method, &run.record.cost);
+        let mut numbers = match run.manifest.scored {
+            // Nobody knows what it cost.
+            Some(_) => Vec::new(),
+            None => cost_measurements(&run.manifest.method, &run.record.cost),
+        };
         let mut missing: Vec<String> = Vec::new();
         let obstacle = match &run.record.status {
             Status::Complete => {
@@ -60,7 +64,8 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
         {
             missing.push(reason.clone());
         }
-        let rows = rows_of(run, &run.manifest.method, &numbers, obstacle.err());
+        let names = (run.manifest.method.as_str(), run.manifest.judged_as());
+        let rows = rows_of(run, names, &numbers, obstacle.err());
         for reason in missing {
             let concerns =
                 |row: &Row| row.verdict == Some(Verdict::NotEvaluated) && row.why == reason;
@@ -80,23 +85,25 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
 
 /// The claims on a method whose run cannot be read, with the reason; `like` is another run of its study.
 pub fn rows_unread(like: &Run, method: &str, reason: &str) -> Vec<Row> {
-    rows_of(like, method, &[], Some(reason.to_owned()))
+    rows_of(like, (method, Some(method)), &[], Some(reason.to_owned()))
 }
 
-/// The claims on a run's method, judged or with the reason why not, and all other numbers.
+/// The claims on a run's method, judged or with the reason why not, and all other numbers; the method
+/// as in rows, and the one whose claims they are.
 fn rows_of(
     run: &Run,
-    method: &str,
+    (name, method): (&str, Option<&str>),
     numbers: &[Measurement],
     obstacle: Option<String>,
 ) -> Vec<Row> {
     let (case, profile) = (&run.manifest.case, &run.manifest.profile);
     let mut apply: Vec<Claim> = Vec::new();
     let mut reasons: Vec<(Claim, String)> = Vec::new();
-    for claim in run.prepared.scene.claims() {
-        if claim.claim.method != method {
+    for mut claim in run.prepared.scene.claims() {
+        if method != Some(&claim.claim.method) {
             continue;
         }
+        name.clone_into(&mut claim.claim.method);
         match obstacle.clone().or(claim.not_here) {
             None => apply.push(claim.claim),
             Some(reason) => reasons.push((claim.claim, reason)),
@@ -123,7 +130,9 @@ fn measure(
 ) -> Result<(), String> {
     let scene = run.prepared.scene.as_ref();
     let windows = scene.windows();
-    energies(run, &windows, numbers);
+    if run.manifest.scored.is_none() {
+        energies(run, &windows, numbers);
+    }
     let problem = scene.problem();
     for reference in &references.of(run)? {
         let subject = Subject {
@@ -135,6 +144,8 @@ fn measure(
             standard: standard.map(|s| traces(&s.record, reference.quantity)),
         };
         match reference.role {
+            // Of another program it must be said what its boundary is.
+            Role::Modelled if run.manifest.judged_as().is_none() => {}
             Role::Modelled => subject.against_model(numbers),
             Role::NoEcho => {
                 subject.echo(&windows, scene.pulse_amplitude(), numbers);

@@ -4,7 +4,6 @@ use crate::certified::{Certified, key, library::Library};
 use crate::runner::Run;
 use crate::scene::{Quantity, Reference, Role};
 use anechoic_reference::claim::Evidence;
-use anechoic_solver::record::Record;
 use std::collections::BTreeMap;
 
 /// Name of certified references in rows.
@@ -57,7 +56,7 @@ impl References {
                 .ok_or("the study's references were not looked up")?
                 .as_ref()
                 .map_err(String::clone)?;
-            references.push(at_times(certified, &run.record)?);
+            references.push(at_times(certified, &run.record.receivers.times)?);
         }
         Ok(references)
     }
@@ -90,9 +89,11 @@ fn hash(run: &Run) -> Option<String> {
     Some(key::hash(&key::table(&problem)))
 }
 
-/// The certified series up to the end of the record.
-fn at_times(certified: &Certified, record: &Record) -> Result<Reference, String> {
-    let times = &record.receivers.times;
+/// The certified series up to the last of some times (s).
+///
+/// # Errors
+/// Why it does not serve.
+pub fn at_times(certified: &Certified, times: &[f64]) -> Result<Reference, String> {
     let (end, samples) = (times.last().copied().unwrap_or(0.0), times.len());
     certified.about.serves(end)?;
     let step = end / samples.max(2) as f64;

@@ -24,7 +24,9 @@ use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use sums::SUMS;
+pub use sums::sum as sha256;
 use table::ColumnHead;
+pub use table::write as series_csv;
 
 /// What is known of a run beside its record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,9 +45,34 @@ pub struct Manifest {
     pub cost: Cost,
     /// Where it comes from.
     pub provenance: Provenance,
+    /// For series of another program: what is known of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scored: Option<Scored>,
+}
+
+/// What is known of another program's series.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Scored {
+    /// The file, as it was named.
+    pub file: String,
+    /// SHA-256 of its content.
+    pub sha256: String,
+    /// The method of ours whose boundary it models, if it was said.
+    pub models: Option<String>,
+    /// What was done to the series.
+    pub notes: Vec<String>,
 }
 
 impl Manifest {
+    /// The method whose claims judge the run; none for another program's series of which nobody said
+    /// what they model.
+    pub fn judged_as(&self) -> Option<&str> {
+        match &self.scored {
+            None => Some(&self.method),
+            Some(scored) => scored.models.as_deref(),
+        }
+    }
+
     /// Folder of the run below that of its case.
     pub fn folder(&self) -> PathBuf {
         Path::new(&self.method).join(&self.hash)
