@@ -80,6 +80,14 @@ pub enum CaseError {
         /// All known names.
         known: Vec<String>,
     },
+    /// The same of a name in a file.
+    #[error("{origin}: {error}")]
+    InFile {
+        /// The line.
+        origin: Origin,
+        /// What is wrong with the name.
+        error: Box<CaseError>,
+    },
     /// Fields of the scene are at fault; all of them are listed.
     #[error("{}", join(.0))]
     Scene(Vec<Complaint>),
@@ -192,6 +200,7 @@ impl CaseError {
     /// The exit code that this error stands for.
     pub fn exit_code(&self) -> u8 {
         match self {
+            CaseError::InFile { error, .. } => error.exit_code(),
             CaseError::Unknown { .. }
             | CaseError::Scene(_)
             | CaseError::Syntax { .. }

@@ -1,7 +1,7 @@
 //! From what was asked (case or file, profile, presets, method, `--set`) to a scene ready to run.
 
 use crate::checks::Checks;
-use crate::draft::{Draft, Origins, Source, parse};
+use crate::draft::{Draft, HEADER, Origins, Source, line_column, parse};
 use crate::error::{CaseError, Complaint, Origin};
 use crate::scene::{Overlay, Scene, SceneInfo};
 use crate::scenes;
@@ -9,6 +9,7 @@ use crate::spec::BoundarySpec;
 use anechoic_solver::error::SolverError;
 use anechoic_solver::{Bill, bill};
 use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -75,31 +76,30 @@ impl Target {
                 source,
             })?;
             let header = Header::read(path, &text)?;
-            (
-                scenes::find(&header.case)?,
-                header,
-                Some((path.to_owned(), text)),
-            )
+            let info = scenes::find(&header.case).map_err(|error| header.blame("case", error))?;
+            (info, header, Some((path.to_owned(), text)))
         } else {
             (scenes::find(&request.target)?, Header::default(), None)
         };
-        let profile = request
-            .profile
-            .as_deref()
-            .or(header.profile.as_deref())
-            .unwrap_or(DEFAULT_PROFILE);
+        let profile = match (&request.profile, &header.profile) {
+            (Some(name), _) => pick("profile", name, info.profiles)?,
+            (None, Some(name)) => pick("profile", name, info.profiles)
+                .map_err(|error| header.blame("profile", error))?,
+            (None, None) => pick("profile", DEFAULT_PROFILE, info.profiles)?,
+        };
+        let presets = |names: &[String]| {
+            let picked = names.iter().map(|name| pick("preset", name, info.presets));
+            picked.collect::<Result<Vec<_>, _>>()
+        };
         let presets = if request.presets.is_empty() {
-            &header.presets
+            presets(&header.presets).map_err(|error| header.blame("preset", error))?
         } else {
-            &request.presets
+            presets(&request.presets)?
         };
         Ok(Target {
             info,
-            profile: pick("profile", profile, info.profiles)?,
-            presets: presets
-                .iter()
-                .map(|name| pick("preset", name, info.presets))
-                .collect::<Result<_, _>>()?,
+            profile,
+            presets,
             file,
             sets: request.sets.clone(),
         })
@@ -236,18 +236,31 @@ struct Header {
     case: String,
     profile: Option<String>,
     presets: Vec<String>,
+    /// Where each of them stands.
+    origins: BTreeMap<&'static str, Origin>,
 }
 
 impl Header {
+    /// The error with the line of the field that it is about.
+    fn blame(&self, field: &str, error: CaseError) -> CaseError {
+        CaseError::InFile {
+            origin: self.origins.get(field).cloned().unwrap_or(Origin::Default),
+            error: Box::new(error),
+        }
+    }
+
     fn read(path: &Path, text: &str) -> Result<Self, CaseError> {
         let document = parse(text, &Source::File(path.to_owned()))?;
-        let wrong = |field: &str, expected: &str| {
+        let origin = |field: &str| {
             let at = document.as_table().key(field).and_then(|key| key.span());
+            Origin::File {
+                path: path.to_owned(),
+                line: line_column(text, at.map_or(0, |span| span.start)).0,
+            }
+        };
+        let wrong = |field: &str, expected: &str| {
             CaseError::Scene(vec![Complaint {
-                origin: Origin::File {
-                    path: path.to_owned(),
-                    line: crate::draft::line_column(text, at.map_or(0, |span| span.start)).0,
-                },
+                origin: origin(field),
                 field: field.to_owned(),
                 message: format!("expected {expected}"),
             }])
@@ -270,6 +283,7 @@ impl Header {
             case: word("case")?.ok_or_else(|| CaseError::NoCase(path.to_owned()))?,
             profile: word("profile")?,
             presets,
+            origins: HEADER.iter().map(|field| (*field, origin(field))).collect(),
         })
     }
 }

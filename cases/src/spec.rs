@@ -211,7 +211,7 @@ pub const NUMERICS: &[Field] = &[
     ),
     Field::new(
         "solver.rel_tol",
-        Kind::Number(Range::inside(0.0, 1.0)),
+        Kind::Number(TOLERANCE),
         "relative tolerance of the linear solver",
     ),
     Field::new(
@@ -220,6 +220,13 @@ pub const NUMERICS: &[Field] = &[
         "linear solver",
     ),
 ];
+
+/// Above a thousandth the solver's error is as large as the echoes that are looked for.
+const TOLERANCE: Range = Range {
+    max: 1e-3,
+    max_open: false,
+    ..Range::POSITIVE
+};
 
 /// Fields of a rectangular body.
 pub const BODY: &[Field] = &[

@@ -99,7 +99,8 @@ fn ranges_are_named() {
         ("time.dt_s=0", "value > 0"),
         ("time.dt_s=-0.1", "value > 0"),
         ("time.end_s=inf", "value > 0"),
-        ("solver.rel_tol=1", "0 < value < 1"),
+        ("solver.rel_tol=0.01", "0 < value <= 0.001"),
+        ("solver.rel_tol=0", "0 < value <= 0.001"),
         ("points.per_cell=0", "1 <= value <= 100"),
     ] {
         let field = set.split('=').next().unwrap();
@@ -107,7 +108,7 @@ fn ranges_are_named() {
     }
     says(
         &refused(CASE, &["dashpot.impedance=-1"], Some("dashpot")),
-        &["boundary.bottom.impedance", "0 <= value <= 1e6"],
+        &["boundary.bottom.impedance: -1 is out", "0 <= value <= 1e6"],
     );
 }
 
@@ -203,6 +204,26 @@ fn a_file_is_named_with_its_line() {
         &refused("absent.toml", &[], None),
         &["absent.toml", "cannot be read"],
     );
+}
+
+#[test]
+fn unknown_names_in_a_file_are_named_with_their_line() {
+    for (text, words) in [
+        ("case = \"compresion-1d\"", [":1: unknown case", "`compression-1d`"]),
+        ("\ncase = \"compression-1d\"\nprofile = \"gat\"", [":3: unknown profile", "`gate`"]),
+        ("case = \"compression-1d\"\npreset = [\"linaer\"]", [":2: unknown preset", "`linear`"]),
+        ("case = \"compression-1d\"\nprofil = \"gate\"", [":2: profil", "`profile`"]),
+    ] {
+        says(&refused_file(text), &words);
+    }
+    // What the command line says lies over it.
+    let (_folder, path) = file("case = \"compression-1d\"\nprofile = \"gat\"");
+    let request = Request {
+        target: path.display().to_string(),
+        profile: Some("gate".into()),
+        ..Request::default()
+    };
+    assert!(show(&request, None).is_ok());
 }
 
 #[test]

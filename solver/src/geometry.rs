@@ -247,11 +247,6 @@ pub(crate) enum Owner {
     Layer(&'static str, LayerPoints),
 }
 
-/// Whole steps that reach the end of the run.
-pub(crate) fn steps<const D: usize>(problem: &Problem<D>) -> usize {
-    (problem.end_time / problem.dt - 1e-9).ceil().max(1.0) as usize
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -203,3 +203,15 @@ pub struct Problem<const D: usize> {
     /// Relative tolerance of the linear solver.
     pub rel_tol: f64,
 }
+
+impl<const D: usize> Problem<D> {
+    /// Steps that it takes to reach the end.
+    pub fn steps(&self) -> usize {
+        (self.end_time / self.dt - 1e-9).ceil().max(1.0) as usize
+    }
+
+    /// Time of the last step (s): not before the end, and past it where the step does not divide it.
+    pub fn last_time(&self) -> f64 {
+        self.steps() as f64 * self.dt
+    }
+}

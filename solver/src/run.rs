@@ -9,7 +9,7 @@ use crate::sampler::Sampler;
 use crate::time::Integrator;
 use crate::time::newmark::Newmark;
 use crate::time::quasi_static::QuasiStatic;
-use crate::{Monitor, Outcome, geometry, setup};
+use crate::{Monitor, Outcome, setup};
 
 pub(crate) fn run<const D: usize>(
     problem: &Problem<D>,
@@ -41,7 +41,7 @@ pub(crate) fn run_model<const D: usize>(
     };
     let mut sampler = Sampler::new(problem, &model, &mut record);
     sampler.sample(problem, &model, 0, 0.0, &mut record);
-    let total = geometry::steps(problem);
+    let total = problem.steps();
     let mut error = None;
     for step in 1..=total {
         let times = [(step - 1) as f64, step as f64].map(|n| n * problem.dt);

@@ -5,7 +5,7 @@ use crate::basis::on_grid;
 use crate::boundary::{self, Assigned, Context, DisplacementTransfer, LayerPoints, Layout};
 use crate::drive::{PointForce, SideDrive};
 use crate::error::SolverError;
-use crate::geometry::{Geometry, Owner, steps};
+use crate::geometry::{Geometry, Owner};
 use crate::grid::Grid;
 use crate::linear::LinearSolver;
 use crate::material::MaterialBlock;
@@ -263,7 +263,7 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
         points: geometry.material_cells_along().iter().product::<usize>() * problem.points_per_cell,
         nodes,
         unknowns: nodes * D,
-        steps: steps(problem),
+        steps: problem.steps(),
         bytes_per_point: sample.bytes_per_point() + stress + disc.bytes_per_point(),
         bytes_per_node: neighbours * block + 16 * size_of::<Vector<D>>(),
     })

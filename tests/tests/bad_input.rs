@@ -61,6 +61,7 @@ fn unknown_names_come_with_the_nearest() {
         &["compare", CASE, "--filter", "dashpot/residuum"],
         &["--filter dashpot/residuum", "matches nothing"],
     );
+    refused(&["compare", CASE, "--filter", ""], &["--filter"]);
 }
 
 #[test]

@@ -234,3 +234,112 @@ fn the_two_ways_exclude_each_other_and_failed_needs_something_stored() {
     assert_eq!(output.code, 2, "{}", output.err);
     assert!(output.err.contains("without --failed"), "{}", output.err);
 }
+
+/// A half-space whose certified reference does not come with the program: seconds of work.
+const CHANGED: [&str; 12] = [
+    "compare",
+    "point-source",
+    "--profile",
+    "gate",
+    "--method",
+    "fixed",
+    "--method",
+    "dashpot",
+    "--set",
+    "material.nu=0.3",
+    "--set",
+    "grid.h_m=50",
+];
+
+/// The main table of the only certified reference, without the lines that tell what it cost.
+fn certified(root: &Path) -> Option<String> {
+    let entries = std::fs::read_dir(results(root).join("certified")).ok()?;
+    let mut paths: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    paths.retain(|path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.ends_with(".csv") && !name.ends_with("-energy.csv") && !name.ends_with("-fields.csv")
+    });
+    assert!(paths.len() <= 1, "{paths:?}");
+    let text = read(paths.first()?);
+    let costs = ["# cpu_s", "# wall_s"];
+    let kept = text
+        .lines()
+        .filter(|line| !costs.iter().any(|cost| line.starts_with(cost)));
+    Some(kept.collect::<Vec<_>>().join("\n"))
+}
+
+#[test]
+fn a_kill_while_the_reference_is_computed_leaves_no_half_of_it() {
+    let whole = folder();
+    let output = anechoic(whole.path(), &CHANGED);
+    assert!(output.code != 2 && output.code != 3, "{}", output.err);
+    let expected = certified(whole.path()).expect("it was computed");
+
+    let interrupted = folder();
+    let root = interrupted.path();
+    let mut child = Command::new(binary())
+        .current_dir(root)
+        .args(CHANGED)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    wait_for(&results(root), &mut child);
+    std::thread::sleep(Duration::from_millis(200));
+    child.kill().expect("it is killed");
+    child.wait().expect("it is gone");
+    assert!(certified(root).is_none_or(|table| table == expected));
+    // A kill within the writes: the parts come first, the table that is looked for last.
+    let folder = results(root).join("certified");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let mut names: Vec<PathBuf> = std::fs::read_dir(results(whole.path()).join("certified"))
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    names.sort();
+    for path in &names {
+        let name = path
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
+        let half = read(path)[..2000].to_owned();
+        let part = name.contains("-energy") || name.contains("-fields");
+        let left = if part {
+            name
+        } else {
+            format!("{name}.partial")
+        };
+        std::fs::write(folder.join(left), half).expect("written");
+    }
+    let output = anechoic(root, &[&CHANGED[..], &["--resume"]].concat());
+    assert!(output.code != 2 && output.code != 3, "{}", output.err);
+    assert_eq!(certified(root).as_deref(), Some(expected.as_str()));
+
+    // One that was cut short afterwards is not taken for the truth.
+    let table = names.iter().find(|path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        !name.contains("-energy") && !name.contains("-fields")
+    });
+    let table = folder.join(table.and_then(|path| path.file_name()).expect("a table"));
+    let text = read(&table);
+    let cut = text[..text.len() * 3 / 4].rfind('\n').expect("lines") + 1;
+    std::fs::write(&table, &text[..cut]).expect("written");
+    let output = anechoic(root, &[&CHANGED[..], &["--resume"]].concat());
+    assert_eq!(output.code, 2, "{}", output.err);
+    for word in ["results/certified", "cut short", "without the file"] {
+        assert!(
+            output.err.contains(word),
+            "{word} is missing in {}",
+            output.err
+        );
+    }
+    let output = anechoic(root, &["report", "results"]);
+    assert!(
+        output.err.contains("no reference") && output.err.contains("cut short"),
+        "{}",
+        output.err
+    );
+}

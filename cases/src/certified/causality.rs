@@ -52,7 +52,7 @@ pub fn serves_until(problem: &Problem<2>) -> Option<f64> {
 
 /// Added material (m) that lets a side serve until the end of the problem.
 fn needed(problem: &Problem<2>, side: Side) -> f64 {
-    let reach = problem.material.p_speed() * problem.end_time;
+    let reach = problem.material.p_speed() * problem.last_time();
     let margin = CELLS_AHEAD * problem.cell_size;
     // At least the margin, also where the wave hardly gets out of the body.
     (0.5 * (reach + margin - distance(problem, side))).max(margin)
@@ -113,6 +113,15 @@ mod tests {
         // The source is 120 m from the left side and 1880 m from the right one.
         let thickness = |side: usize| problem.sides[0][side].given_number("thickness_m").unwrap();
         assert!(thickness(0) > thickness(1) + 860.0);
+    }
+
+    #[test]
+    fn a_run_that_goes_past_its_end_is_served_to_its_last_step() {
+        let mut problem = problem();
+        (problem.dt, problem.end_time) = (0.3, 10.0);
+        assert!((problem.last_time() - 10.2).abs() < 1e-12);
+        let until = serves_until(&with_buffers(&problem, 1.0)).unwrap();
+        assert!(until >= problem.last_time(), "{until}");
     }
 
     #[test]

@@ -53,7 +53,7 @@ impl Library {
             })
             .map_err(|error| damaged(folder, error))?,
         };
-        let serves = |found: &Certified| found.about.serves(problem.end_time).is_ok();
+        let serves = |found: &Certified| found.about.serves(problem.last_time()).is_ok();
         let found = [shipped, own].into_iter().flatten();
         Ok(found.max_by_key(serves))
     }
@@ -65,7 +65,7 @@ impl Library {
     /// As [`Library::find`], [`solve::compute`] and [`Library::save`].
     pub fn obtain(&self, case: &str, problem: &Problem<2>) -> Result<Certified, CaseError> {
         if let Some(found) = self.find(case, problem)?
-            && found.about.serves(problem.end_time).is_ok()
+            && found.about.serves(problem.last_time()).is_ok()
         {
             return Ok(found);
         }

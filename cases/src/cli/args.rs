@@ -4,6 +4,7 @@ use crate::commands::{Options, ScoreOptions};
 use crate::prepare::Request;
 use crate::resume::Reuse;
 use anechoic_reports::diff::REL_TOL;
+use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -16,16 +17,19 @@ Examples:
   anechoic run my.toml
   anechoic ablation point-source                      what each part of a method absorbs
   anechoic report results                             rebuild the report from records
+  anechoic diff before after                          what moved between two results
+  anechoic score compression-1d series.csv            another program's series beside ours
 
-Exit codes: 0 pass, 1 a claim failed, 2 usage or input (an output folder that cannot be
-written included), 3 a run failed or was stopped, or a result could not be written midway,
-4 a reference is missing.";
+Exit codes: 0 pass, 1 a claim failed (diff: something changed), 2 usage or input (an output
+folder that cannot be written included), 3 a run failed or was stopped, a record is damaged, or
+a result could not be written midway, 4 a reference is missing.";
 
 const SOLVE_EXAMPLES: &str = "\
 Examples:
   anechoic compare compression-1d --profile gate --jobs 2
   anechoic compare compression-1d --set dashpot.impedance=0.5 --filter dashpot
   anechoic run my.toml --format json > rows.json
+  anechoic compare point-source --resume              after a stop or a kill
   anechoic run compression-1d --method damping-layer --dry-run";
 
 /// Measures how much echo boundary methods leave in particle geomechanics.
@@ -113,7 +117,7 @@ pub enum Command {
         /// Results folder, or a case's folder in it.
         folder: PathBuf,
         /// Only rows whose METHOD/METRIC/WHERE contains this.
-        #[arg(long)]
+        #[arg(long, value_parser = NonEmptyStringValueParser::new())]
         filter: Option<String>,
         /// Output format.
         #[arg(long, value_enum, default_value_t)]
@@ -178,7 +182,7 @@ pub struct WorkArgs {
     #[command(flatten)]
     scene: SceneArgs,
     /// Only rows whose METHOD/METRIC/WHERE contains this, and the methods that they need.
-    #[arg(long)]
+    #[arg(long, value_parser = NonEmptyStringValueParser::new())]
     filter: Option<String>,
     /// Results folder.
     #[arg(long, value_name = "DIR", default_value = "results")]
@@ -238,7 +242,7 @@ pub struct ScoreArgs {
     #[arg(long)]
     method: Option<String>,
     /// Only rows whose METHOD/METRIC/WHERE contains this.
-    #[arg(long)]
+    #[arg(long, value_parser = NonEmptyStringValueParser::new())]
     filter: Option<String>,
     /// Results folder.
     #[arg(long, value_name = "DIR", default_value = "results")]

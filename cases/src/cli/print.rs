@@ -204,7 +204,7 @@ fn estimate(problem: &Problem<2>, bill: &Bill) -> String {
 fn reference(case: &str, problem: &Problem<2>) -> Result<String, CaseError> {
     let extended = with_buffers(problem, 1.0);
     Ok(match Library::shipped().find(case, problem)? {
-        Some(found) if found.about.serves(problem.end_time).is_ok() => format!(
+        Some(found) if found.about.serves(problem.last_time()).is_ok() => format!(
             "certified, stored ({}), serves until {:.2} s",
             found.about.hash, found.about.serves_until_s
         ),

@@ -100,7 +100,7 @@ fn without_echo(
             // Of a longer reference the samples of this run.
             let end = times.len().min(found.receivers.times.len());
             at_times(&found, &times[..end.max(1)])
-                .and_then(|r| found.about.serves(problem.end_time).map(|()| r))
+                .and_then(|r| found.about.serves(problem.last_time()).map(|()| r))
         }
         None => Err(format!(
             "it has to be solved for: `anechoic reference` with the same scene does, and so does the first `anechoic compare {case}`"

@@ -136,7 +136,10 @@ fn read(path: &Path, scene: &Prepared, model: Option<&str>) -> Result<(Record, S
     let steps = scene.bill.steps;
     let times: Vec<f64> = (0..=steps).map(|step| step as f64 * problem.dt).collect();
     series.covers(steps as f64 * problem.dt, problem.dt)?;
-    let (receivers, notes) = series.at(&times);
+    let (receivers, mut notes) = series.at(&times);
+    if scene.scene.extended().is_some() {
+        notes.push("the certified reference is of our scheme on our mesh: what departs from it is the other discretisation as well as echo".to_owned());
+    }
     let content = std::fs::read(path).map_err(|source| CaseError::Read {
         path: path.to_owned(),
         source,

@@ -22,7 +22,7 @@ pub enum Source {
 }
 
 /// Keys of a file that belong to the program, not to the scene.
-const HEADER: &[&str] = &["case", "profile", "preset"];
+pub const HEADER: &[&str] = &["case", "profile", "preset"];
 
 /// A scene in the making.
 #[derive(Clone, Debug)]
@@ -211,7 +211,8 @@ impl Draft {
     }
 
     fn unknown(&mut self, path: &str, origin: Origin) {
-        let near = nearest(path, self.fields.iter().map(|f| f.path));
+        let fields = self.fields.iter().map(|f| f.path);
+        let near = nearest(path, fields.chain(HEADER.iter().copied()));
         let message = format!(
             "unknown field{}; `anechoic show CASE --toml` lists all",
             hint(&near)

@@ -122,7 +122,8 @@ fn wrong_value(param: &Param, value: &Value) -> Option<String> {
     match (param.kind, value) {
         (ParamKind::Number { min, max, unit, .. }, Value::Float(x)) => {
             let range = Range::within(min, max);
-            (!range.holds(*x)).then(|| format!("{x} {unit} is out of range; allowed: {range}"))
+            let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+            (!range.holds(*x)).then(|| format!("{x}{unit} is out of range; allowed: {range}"))
         }
         (ParamKind::Number { .. }, other) => {
             Some(format!("expected a number, found {}", describe(other)))

@@ -43,7 +43,7 @@ pub(crate) fn layout<const D: usize>(
 /// Material added (m), before it is rounded up to whole cells.
 pub fn thickness<const D: usize>(problem: &Problem<D>, method: &SideMethod) -> f64 {
     method.given_number("thickness_m").unwrap_or_else(|| {
-        let needed = 0.5 * problem.material.p_speed() * problem.end_time;
+        let needed = 0.5 * problem.material.p_speed() * problem.last_time();
         needed + CELLS_AHEAD * problem.cell_size
     })
 }
