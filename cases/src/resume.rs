@@ -94,34 +94,39 @@ pub fn folder(scene: &Prepared) -> PathBuf {
     Path::new(&scene.method).join(scene.hash())
 }
 
-/// What there is to do for some scenes, in their order, and what is left out with the reason.
+/// What there is to do for a study.
+#[derive(Debug, Default)]
+pub struct Todo {
+    /// Runs to solve and runs that were read back, in their order.
+    pub tasks: Vec<Task>,
+    /// Methods that are left out, and why.
+    pub left_out: Vec<(String, String)>,
+}
+
+/// What there is to do for some scenes.
 ///
 /// # Errors
 /// [`CaseError::Usage`] when nothing is left.
-pub fn tasks(
-    scenes: Vec<Prepared>,
-    study: &Path,
-    reuse: Reuse,
-) -> Result<(Vec<Task>, Vec<(String, String)>), CaseError> {
-    let (mut tasks, mut left_out) = (Vec::new(), Vec::new());
+pub fn tasks(scenes: Vec<Prepared>, study: &Path, reuse: Reuse) -> Result<Todo, CaseError> {
+    let mut todo = Todo::default();
     for scene in scenes {
         match Decision::of(&scene, study, reuse) {
-            Decision::Solve(_) => tasks.push(Task::Solve(scene)),
+            Decision::Solve(_) => todo.tasks.push(Task::Solve(Box::new(scene))),
             // The scene as asked is the scene as stored: their hashes are the same.
-            Decision::Take(run) => tasks.push(Task::Take(Run {
+            Decision::Take(run) => todo.tasks.push(Task::Take(Box::new(Run {
                 prepared: scene,
                 ..*run
-            })),
-            Decision::Leave(why) => left_out.push((scene.method, why)),
+            }))),
+            Decision::Leave(why) => todo.left_out.push((scene.method, why)),
         }
     }
-    if tasks.is_empty() {
+    if todo.tasks.is_empty() {
         return Err(CaseError::Usage(format!(
             "{}: none of these runs was made, so that none failed; without --failed they are solved",
             study.display()
         )));
     }
-    Ok((tasks, left_out))
+    Ok(todo)
 }
 
 #[cfg(test)]

@@ -35,9 +35,9 @@ impl Run {
 #[derive(Debug)]
 pub enum Task {
     /// To solve a scene.
-    Solve(Prepared),
+    Solve(Box<Prepared>),
     /// Nothing: the run was read back.
-    Take(Run),
+    Take(Box<Run>),
 }
 
 impl Task {
@@ -83,9 +83,9 @@ pub fn run_all(tasks: Vec<Task>, jobs: usize, store: &Store) -> Result<Vec<Run>,
             .into_par_iter()
             .with_max_len(1)
             .map(|task| match task {
-                Task::Take(run) => Ok(run),
+                Task::Take(run) => Ok(*run),
                 Task::Solve(scene) => {
-                    let run = run_one(scene, &progress);
+                    let run = run_one(*scene, &progress);
                     store.save(&run).map(|()| run)
                 }
             })

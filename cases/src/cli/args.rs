@@ -262,7 +262,7 @@ impl ScoreArgs {
                 filter: self.filter.clone(),
                 out: self.out.clone(),
                 jobs: 1,
-                reuse: Reuse::AllButFailed,
+                reuse: Reuse::Nothing,
                 command: typed(),
             },
             series: self.series.clone(),

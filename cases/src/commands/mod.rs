@@ -11,7 +11,7 @@ use crate::certified::solve::{compute, difference, measure_floor};
 use crate::error::{CaseError, exit};
 use crate::filter::Filter;
 use crate::prepare::{Prepared, Request, Target};
-use crate::resume::{Reuse, folder, tasks};
+use crate::resume::{Reuse, Todo, folder, tasks};
 use crate::runner::{Task, run_all};
 use crate::store::Store;
 use crate::study::stored::{Found, Study, find_studies};
@@ -268,7 +268,7 @@ fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
             store.sweep(&folder(scene))?;
         }
     }
-    let (tasks, left_out) = tasks(plan.scenes, store.folder(), options.reuse)?;
+    let Todo { tasks, left_out } = tasks(plan.scenes, store.folder(), options.reuse)?;
     let mut finished = execute_tasks(tasks, &store, plan.filter.as_ref(), plan.kind, options)?;
     let left_out = left_out.into_iter();
     let notes = left_out.map(|(method, why)| format!("{method} is left out: {why}"));

@@ -75,12 +75,12 @@ pub fn score(options: &ScoreOptions) -> Result<Finished, CaseError> {
     store.save(&run)?;
     let earlier = earlier(store.folder(), &run);
     let (mut tasks, absent) = ours(plan, store.folder(), target.info.standard);
-    tasks.extend(earlier.into_iter().map(Task::Take));
-    tasks.push(Task::Take(run));
+    let others = earlier.into_iter().chain([run]);
+    tasks.extend(others.map(|run| Task::Take(Box::new(run))));
     let mut finished = execute_tasks(tasks, &store, filter.as_ref(), Kind::Comparison, common)?;
     if !absent.is_empty() {
         finished.study.notes.push(format!(
-            "not beside {name}, since they were not solved: {}; `anechoic compare` with the same scene solves them, then score again",
+            "not beside {name}: {}; `anechoic compare` with the same scene solves them, then score again",
             absent.join(", ")
         ));
     }
@@ -92,14 +92,13 @@ fn ours(plan: Plan, study: &Path, standard: &str) -> (Vec<Task>, Vec<String>) {
     let (mut tasks, mut absent) = (Vec::new(), Vec::new());
     for scene in plan.scenes {
         match Decision::of(&scene, study, Reuse::AllButFailed) {
-            Decision::Take(run) => tasks.push(Task::Take(Run {
+            Decision::Take(run) => tasks.push(Task::Take(Box::new(Run {
                 prepared: scene,
                 ..*run
-            })),
-            Decision::Solve(_) | Decision::Leave(_) if scene.method == standard => {
-                tasks.push(Task::Solve(scene));
-            }
-            Decision::Solve(_) | Decision::Leave(_) => absent.push(scene.method),
+            }))),
+            _ if scene.method == standard => tasks.push(Task::Solve(Box::new(scene))),
+            Decision::Leave(_) => absent.push(scene.method),
+            Decision::Solve(why) => absent.push(format!("{} ({why})", scene.method)),
         }
     }
     (tasks, absent)

@@ -4,14 +4,16 @@ mod arrivals;
 mod certified;
 mod papers;
 pub mod references;
+mod rows;
 
 pub use certified::CERTIFIER;
+pub use rows::rows_unread;
 
 use crate::certified::Certified;
 use crate::runner::Run;
 use crate::scene::{Quantity, Reference, Role, Window};
-use anechoic_reference::claim::{Claim, Evidence};
-use anechoic_reports::judge::{Measurement, cost_measurements, judge, measurements};
+use anechoic_reference::claim::Evidence;
+use anechoic_reports::judge::{Measurement, cost_measurements, measurements};
 use anechoic_reports::norms::{
     NormError, Onset, Score, Trace, Traces, amplitude_ratio, echo_level_db, echo_ratio,
     energy_left, growth_rate_per_s, peak_error, rel_l2, residual, target_energy, with_groups,
@@ -21,6 +23,7 @@ use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::problem::Problem;
 use anechoic_solver::record::{Record, Status};
 use references::{References, standard_of};
+use rows::rows_of;
 
 /// The method's name in rows that give the reference's own value.
 pub const REFERENCE: &str = "reference";
@@ -81,43 +84,6 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
     }
     judged.rows.extend(papers::rows(runs));
     judged
-}
-
-/// The claims on a method whose run cannot be read, with the reason; `like` is another run of its study.
-pub fn rows_unread(like: &Run, method: &str, reason: &str) -> Vec<Row> {
-    rows_of(like, (method, Some(method)), &[], Some(reason.to_owned()))
-}
-
-/// The claims on a run's method, judged or with the reason why not, and all other numbers; the method
-/// as in rows, and the one whose claims they are.
-fn rows_of(
-    run: &Run,
-    (name, method): (&str, Option<&str>),
-    numbers: &[Measurement],
-    obstacle: Option<String>,
-) -> Vec<Row> {
-    let (case, profile) = (&run.manifest.case, &run.manifest.profile);
-    let mut apply: Vec<Claim> = Vec::new();
-    let mut reasons: Vec<(Claim, String)> = Vec::new();
-    for mut claim in run.prepared.scene.claims() {
-        if method != Some(&claim.claim.method) {
-            continue;
-        }
-        name.clone_into(&mut claim.claim.method);
-        match obstacle.clone().or(claim.not_here) {
-            None => apply.push(claim.claim),
-            Some(reason) => reasons.push((claim.claim, reason)),
-        }
-    }
-    let mut all = apply.clone();
-    all.extend(reasons.iter().map(|(claim, _)| claim.clone()));
-    let mut rows = judge(case, profile, numbers, &all);
-    // Rows of claims come first and in their order.
-    for (row, (_, reason)) in rows.iter_mut().skip(apply.len()).zip(&reasons) {
-        row.verdict = Some(Verdict::NotEvaluated);
-        row.why.clone_from(reason);
-    }
-    rows
 }
 
 /// All metrics of a complete run.
