@@ -192,7 +192,7 @@ fn snapshots(table: &Table) -> Result<Vec<Snapshot>, StoredError> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::scene::Scene;
     use crate::scenes::point_source::PointSource;
@@ -200,7 +200,8 @@ mod tests {
     use anechoic_solver::record::Cost;
     use std::collections::BTreeMap;
 
-    fn example() -> Certified {
+    /// A reference of three times.
+    pub fn example() -> Certified {
         let problem = key::table(&PointSource::default().extended().unwrap());
         let column = |name: &str, unit: &str, values: &[f64]| Column {
             name: name.into(),

@@ -105,3 +105,20 @@ fn damaged(folder: &Path, error: CaseError) -> CaseError {
         other => other,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certified::file::tests::example;
+
+    /// A kill between two tables then leaves parts that nobody looks for.
+    #[test]
+    fn the_table_that_is_looked_for_is_written_last() {
+        let folder = tempfile::tempdir().unwrap();
+        let library = Library::of_folder(folder.path());
+        let paths = library.save(&example()).unwrap();
+        let last = paths.last().unwrap().file_name().unwrap().to_owned();
+        let main = format!("point-source-{}.csv", example().about.hash);
+        assert_eq!((paths.len(), last.to_str()), (3, Some(main.as_str())));
+    }
+}
