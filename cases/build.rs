@@ -31,7 +31,10 @@ fn main() {
         take_in(Path::new(place), &mut sources);
         println!("cargo::rerun-if-changed={place}");
     }
-    println!("cargo::rustc-env=ANECHOIC_SOURCES={:016x}", sources.finish());
+    println!(
+        "cargo::rustc-env=ANECHOIC_SOURCES={:016x}",
+        sources.finish()
+    );
     for name in ["HEAD", "index"] {
         if let Some(path) = output("git", &["rev-parse", "--git-path", name])
             && Path::new(&path).exists()

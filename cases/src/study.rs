@@ -61,7 +61,7 @@ pub struct Published {
     pub ranking: Option<Ranking>,
     /// Why claims have no reference, if there are such claims.
     pub reference_missing: Option<String>,
-    /// What is missing from the results, and why.
+    /// What is missing from the results and why, and what was done to series.
     pub notes: Vec<String>,
     /// The report.
     pub report: PathBuf,

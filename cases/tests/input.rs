@@ -209,10 +209,22 @@ fn a_file_is_named_with_its_line() {
 #[test]
 fn unknown_names_in_a_file_are_named_with_their_line() {
     for (text, words) in [
-        ("case = \"compresion-1d\"", [":1: unknown case", "`compression-1d`"]),
-        ("\ncase = \"compression-1d\"\nprofile = \"gat\"", [":3: unknown profile", "`gate`"]),
-        ("case = \"compression-1d\"\npreset = [\"linaer\"]", [":2: unknown preset", "`linear`"]),
-        ("case = \"compression-1d\"\nprofil = \"gate\"", [":2: profil", "`profile`"]),
+        (
+            "case = \"compresion-1d\"",
+            [":1: unknown case", "`compression-1d`"],
+        ),
+        (
+            "\ncase = \"compression-1d\"\nprofile = \"gat\"",
+            [":3: unknown profile", "`gate`"],
+        ),
+        (
+            "case = \"compression-1d\"\npreset = [\"linaer\"]",
+            [":2: unknown preset", "`linear`"],
+        ),
+        (
+            "case = \"compression-1d\"\nprofil = \"gate\"",
+            [":2: profil", "`profile`"],
+        ),
     ] {
         says(&refused_file(text), &words);
     }

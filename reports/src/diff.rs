@@ -251,27 +251,23 @@ pub fn diff_table(diff: &Diff, rel_tol: f64) -> String {
 }
 
 fn table(changes: &[&Change]) -> String {
-    let studies = changes.iter().any(|change| !change.study.is_empty());
-    let mut head = vec![
-        "change", "method", "metric", "where", "before", "after", "by",
-    ];
-    if studies {
-        head.insert(1, "study");
-    }
+    // Of a single study or of two runs there is nothing to tell apart by it.
+    let told = |name: fn(&Change) -> &str| changes.iter().any(|change| !name(change).is_empty());
+    let study = told(|change| &change.study);
+    let method = told(|change| &change.method);
+    let mut head = vec!["change"];
+    head.extend(study.then_some("study"));
+    head.extend(method.then_some("method"));
+    head.extend(["metric", "where", "before", "after", "by"]);
     let mut table = new_table(&head);
     let first = head.len() - 3;
     align_right(&mut table, &[first, first + 1, first + 2]);
     for change in changes {
-        let mut cells = vec![
-            word(change.change).to_owned(),
-            change.method.clone(),
-            change.metric.clone(),
-            change.place.clone(),
-        ];
+        let mut cells = vec![word(change.change).to_owned()];
+        cells.extend(study.then(|| change.study.clone()));
+        cells.extend(method.then(|| change.method.clone()));
+        cells.extend([change.metric.clone(), change.place.clone()]);
         cells.extend(numbers(change));
-        if studies {
-            cells.insert(1, change.study.clone());
-        }
         table.add_row(cells);
     }
     finish(&table, "")

@@ -28,7 +28,7 @@ pub struct Study {
     pub runs: Vec<RunSummary>,
     /// What the case says about its source.
     pub ledger: Vec<LedgerEntry>,
-    /// What is missing here, and why; may be empty.
+    /// What is missing here and why, and what was done to series; may be empty.
     #[serde(default)]
     pub notes: Vec<String>,
     /// Pictures; drawn anew from the records, so not stored.

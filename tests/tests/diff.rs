@@ -64,7 +64,11 @@ fn a_worse_boundary_moves_numbers_and_verdicts() {
     assert_eq!(worse["study"], CASE);
     // A tolerance that takes everything leaves the verdicts.
     let output = diff(folder.path(), &["a", "b", "--rel-tol", "1"], 1);
-    assert!(output.out.contains("3 verdicts and 0 bounds"), "{}", output.out);
+    assert!(
+        output.out.contains("3 verdicts and 0 bounds"),
+        "{}",
+        output.out
+    );
     // Runs: one on each side, whatever their methods are called.
     let run = |out: &str, method| {
         run_folder(&folder.path().join(out), method)

@@ -343,3 +343,30 @@ fn a_kill_while_the_reference_is_computed_leaves_no_half_of_it() {
         output.err
     );
 }
+
+#[test]
+fn an_ablation_is_gone_on_with_in_its_own_folder() {
+    let folder = folder();
+    let plan = [
+        "ablation",
+        "point-source",
+        "--profile",
+        "gate",
+        "--resume",
+        "--dry-run",
+        "--format",
+        "json",
+    ];
+    let output = anechoic(folder.path(), &plan);
+    assert_eq!(output.code, 0, "{}", output.err);
+    let runs = rows(&output.out);
+    assert!(runs.len() > 5);
+    for run in runs {
+        assert_eq!(
+            (run["action"].as_str(), run["why"].as_str()),
+            (Some("solve"), Some("it is missing"))
+        );
+        let folder = run["folder"].as_str().expect("a path");
+        assert!(folder.contains("point-source-ablation"), "{folder}");
+    }
+}

@@ -256,7 +256,11 @@ fn a_case_judged_by_displacements_solves_its_standard_run() {
         .expect("a ratio over the standard run");
     assert!(echo > 0.01 && echo < 1.0, "{echo}");
     assert!(root.join("b/point-source/fixed").is_dir());
-    assert!(output.err.contains("other discretisation"), "{}", output.err);
+    assert!(
+        output.err.contains("other discretisation"),
+        "{}",
+        output.err
+    );
 }
 
 #[test]

@@ -275,7 +275,9 @@ impl ScoreArgs {
 /// the words that say how to go on.
 fn typed() -> String {
     let words = std::env::args().skip(1);
-    let words: Vec<String> = words.filter(|w| w != "--resume" && w != "--failed").collect();
+    let words: Vec<String> = words
+        .filter(|w| w != "--resume" && w != "--failed")
+        .collect();
     format!("anechoic {}", words.join(" "))
 }
 

@@ -284,7 +284,7 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
     Ok(text)
 }
 
-/// What is missing from the results, for stderr: runs that did not end, references, pictures.
+/// What is to be known of the results, for stderr: runs that did not end, references, pictures, notes.
 pub fn missing(finished: &Finished) -> String {
     let mut text = String::new();
     for run in &finished.study.runs {

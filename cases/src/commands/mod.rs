@@ -234,7 +234,11 @@ impl Rebuilt {
         }
         let codes: Vec<u8> = self.studies.iter().map(Finished::exit_code).collect();
         let has = |code: &u8| codes.contains(code);
-        let worst = [exit::SOLVER_FAILED, exit::GATE_FAILED, exit::REFERENCE_MISSING];
+        let worst = [
+            exit::SOLVER_FAILED,
+            exit::GATE_FAILED,
+            exit::REFERENCE_MISSING,
+        ];
         worst.into_iter().find(has).unwrap_or(exit::PASS)
     }
 }

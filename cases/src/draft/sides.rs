@@ -122,7 +122,11 @@ fn wrong_value(param: &Param, value: &Value) -> Option<String> {
     match (param.kind, value) {
         (ParamKind::Number { min, max, unit, .. }, Value::Float(x)) => {
             let range = Range::within(min, max);
-            let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+            let unit = if unit == "1" {
+                String::new()
+            } else {
+                format!(" {unit}")
+            };
             (!range.holds(*x)).then(|| format!("{x}{unit} is out of range; allowed: {range}"))
         }
         (ParamKind::Number { .. }, other) => {

@@ -136,7 +136,8 @@ impl Store {
         for entry in entries.into_iter().flatten().flatten().flatten() {
             if entry.file_name().to_string_lossy().starts_with(UNFINISHED) {
                 let path = entry.path();
-                std::fs::remove_dir_all(&path).map_err(|source| CaseError::Storage { path, source })?;
+                std::fs::remove_dir_all(&path)
+                    .map_err(|source| CaseError::Storage { path, source })?;
             }
         }
         Ok(())

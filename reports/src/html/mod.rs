@@ -151,7 +151,7 @@ fn notes(notes: &[String]) -> Markup {
     html! {
         @if !notes.is_empty() {
             section {
-                h2 { "What is missing" }
+                h2 { "Notes" }
                 ul { @for note in notes { li { (note) } } }
             }
         }
