@@ -350,3 +350,76 @@ fn damaged_data_are_refused() {
     let missing = Field::magnitude(&snapshot(1.0, 0.0), &["vx"]);
     assert!(matches!(missing, Err(PlotError::Empty { .. })));
 }
+
+/// A frame as it is shown: what it changes on top of what was shown before.
+fn play(file: &[u8]) -> (Vec<Vec<u8>>, usize, Vec<u8>) {
+    let mut decoder = gif::DecodeOptions::new();
+    decoder.set_color_output(gif::ColorOutput::Indexed);
+    let mut decoder = decoder.read_info(file).expect("a GIF");
+    let table = decoder.global_palette().expect("one table").to_vec();
+    let width = usize::from(decoder.width());
+    let mut shown = vec![255; width * usize::from(decoder.height())];
+    let mut frames = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().expect("whole") {
+        let across = usize::from(frame.width);
+        for (row, values) in frame.buffer.chunks_exact(across).enumerate() {
+            let start = (usize::from(frame.top) + row) * width + usize::from(frame.left);
+            shown[start..start + across].copy_from_slice(values);
+        }
+        frames.push(shown.clone());
+    }
+    (frames, width, table)
+}
+
+#[test]
+fn an_animation_has_a_frame_a_time_and_one_scale() {
+    let plot = snapshots();
+    let file = plot.to_gif().expect("drawable");
+    let (frames, width, table) = play(&file);
+    assert_eq!(frames.len(), plot.rows.len());
+    // What a value looks like does not depend on the frame: 201 levels of the map from 0 to the
+    // median of the frames' largest values, and the field's largest value of the frame is shown.
+    let peak = |fields: &[Field]| {
+        let values = fields.iter().flat_map(|f| &f.values);
+        values.fold(0.0_f64, |m, v| m.max(*v))
+    };
+    let peaks: Vec<f64> = plot.rows.iter().map(|(_, fields)| peak(fields)).collect();
+    let mut sorted = peaks.clone();
+    sorted.sort_by(f64::total_cmp);
+    let height = frames[0].len() / width;
+    // Left of the colour bar, below the headlines, above the axis.
+    let largest = |frame: &[u8]| {
+        let rows = (40..height - 45).flat_map(|row| &frame[row * width + 98..row * width + 790]);
+        rows.copied().filter(|level| *level <= 200).max()
+    };
+    for (frame, peak) in frames.iter().zip(&peaks) {
+        let level = (peak / sorted[1] * 200.0).min(200.0);
+        let found = f64::from(largest(frame).expect("a field"));
+        // Pixels lie between nodes, where the field is a little smaller.
+        assert!(
+            found <= level.round() && found > 0.85 * level,
+            "{found} {level}"
+        );
+    }
+    assert_eq!(&table[..3], [0x44, 0x01, 0x54], "viridis starts dark");
+    // The frames differ in their fields and in their time.
+    let line = |frame: &[u8]| -> Vec<u8> {
+        let rows = (0..22).flat_map(|row| &frame[row * width + 808..(row + 1) * width]);
+        rows.copied().collect()
+    };
+    assert_ne!(line(&frames[0]), line(&frames[1]));
+    assert_ne!(frames[1], frames[2]);
+    if let Ok(folder) = std::env::var("ANECHOIC_PICTURES") {
+        let path = std::path::Path::new(&folder).join("animation.gif");
+        std::fs::write(path, file).expect("writable");
+    }
+}
+
+#[test]
+fn an_animation_of_damaged_fields_is_refused() {
+    let mut damaged = snapshots();
+    damaged.rows[1].1[2].values[7] = f64::NAN;
+    assert!(matches!(damaged.to_gif(), Err(PlotError::NonFinite { .. })));
+    damaged.rows.clear();
+    assert!(matches!(damaged.to_gif(), Err(PlotError::Empty { .. })));
+}
