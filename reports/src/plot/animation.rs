@@ -17,6 +17,8 @@ const TOP: f64 = 34.0;
 const LINE: u32 = 22;
 /// Greys of the ramp, from ink to paper.
 const GREYS: usize = 54;
+/// End of the scale over the median of the frames' largest values: waves that went far are weaker.
+const SCALE: f64 = 0.4;
 /// Time for which a frame stands (1/100 s); the last one stands [`HOLD`] times as long.
 const DELAY: u16 = 8;
 const HOLD: u16 = 12;
@@ -71,11 +73,11 @@ impl Colouring {
 impl SnapshotPlot {
     /// The plot as an animated GIF, one frame a row.
     ///
-    /// The scale ends at the median of the frames' largest values, so that waves are seen which are
-    /// far from their source; what is beyond it has the last colour.
+    /// The scale ends at 0.4 of the median of the frames' largest values, so that waves are seen which
+    /// are far from their source; what is beyond it has the last colour.
     pub fn to_gif(&self) -> Result<Vec<u8>, PlotError> {
         self.check()?;
-        let colours = Colouring::new(Colours::sequential(self.median_peak()));
+        let colours = Colouring::new(Colours::sequential(self.scale()));
         let still = self.still(&colours)?;
         let (width, height) = still.size();
         let (width, height) = (width as usize, height as usize);
@@ -116,7 +118,7 @@ impl SnapshotPlot {
             let panel = self.panel(column, TOP);
             draw_ground(&mut drawing, &panel, &self.meshes[column]);
             outline(&mut drawing, &field_part(&panel, field));
-            self.label(&mut drawing, &panel, (0, column));
+            self.label(&mut drawing, &panel, column, (true, true));
         }
         let name = (self.quantity.as_str(), self.unit.as_str());
         let height = panel_height.min(260.0);
@@ -124,8 +126,8 @@ impl SnapshotPlot {
         Ok(drawing)
     }
 
-    /// Median over the rows of the largest value in each; 1 of nothing.
-    fn median_peak(&self) -> f64 {
+    /// End of the scale; 1 where nothing moves.
+    fn scale(&self) -> f64 {
         let peak = |fields: &Vec<Field>| {
             let values = fields.iter().flat_map(|field| &field.values);
             values.fold(0.0, |m, v| f64::max(m, *v))
@@ -133,7 +135,7 @@ impl SnapshotPlot {
         let mut peaks: Vec<f64> = self.rows.iter().map(|(_, fields)| peak(fields)).collect();
         peaks.sort_by(f64::total_cmp);
         let median = peaks.get(peaks.len() / 2).copied().unwrap_or(0.0);
-        if median > 0.0 { median } else { 1.0 }
+        if median > 0.0 { SCALE * median } else { 1.0 }
     }
 }
 

@@ -98,7 +98,8 @@ impl SnapshotPlot {
                 let panel = self.panel(column, TOP + row as f64 * (height + GAP));
                 draw_ground(&mut drawing, &panel, &self.meshes[column]);
                 draw_field(&mut drawing, &panel, field, &colours);
-                self.label(&mut drawing, &panel, (row, column));
+                let ends = (row == 0, row + 1 == self.rows.len());
+                self.label(&mut drawing, &panel, column, ends);
                 if column == 0 {
                     let text = format!("t = {} s", crate::format::short(*time));
                     panel.y_title(&mut drawing, &text, 84.0);
@@ -183,18 +184,20 @@ impl SnapshotPlot {
         if largest > 0.0 { largest } else { 1.0 }
     }
 
-    /// Frame, headline and axes of the panel in a row and column.
+    /// Frame and axes of a method's panel; headlines stand on the first row, the names of the axis
+    /// below the last.
     pub(super) fn label(
         &self,
         drawing: &mut Drawing,
         panel: &Panel,
-        (row, column): (usize, usize),
+        column: usize,
+        (first, last): (bool, bool),
     ) {
-        panel.frame(drawing, row + 1 == self.rows.len(), column == 0);
-        if row == 0 {
+        panel.frame(drawing, last, column == 0);
+        if first {
             panel.headline(drawing, &self.methods[column]);
         }
-        if row + 1 == self.rows.len() {
+        if last {
             panel.x_title(drawing, "x (m)");
         }
         if column == 0 {

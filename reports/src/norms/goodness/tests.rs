@@ -158,3 +158,15 @@ fn what_cannot_be_compared_is_refused() {
     let error = misfits(&slow, &slow).expect_err("too short");
     assert!(matches!(error, NormError::NoBand { .. }), "{error}");
 }
+
+#[test]
+fn another_program_finds_the_same() {
+    // ObsPy 1.5.1, obspy.signal.tf_misfit em and pm with fmin 1.46484375, fmax 2.5390625, nf 11, on
+    // a packet that is weaker and late, and its echo.
+    let wave = packet(0.0);
+    let echo = series(|t| 0.9 * wave(t - 0.03) + 0.3 * wave(t - 2.0));
+    let found = misfit(vec![echo], vec![series(&wave)]);
+    let near = |value: f64, theirs: f64| (value / theirs - 1.0).abs() < 0.002;
+    assert!(near(found.envelope, 0.279098368), "{found:?}");
+    assert!(near(found.phase, 0.117851354), "{found:?}");
+}
