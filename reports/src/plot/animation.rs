@@ -17,8 +17,8 @@ const TOP: f64 = 34.0;
 const LINE: u32 = 22;
 /// Greys of the ramp, from ink to paper.
 const GREYS: usize = 54;
-/// End of the scale over the median of the frames' largest values: waves that went far are weaker.
-const SCALE: f64 = 0.4;
+/// Share of all values, over all frames, within the scale.
+const WITHIN: f64 = 0.99;
 /// Time for which a frame stands (1/100 s); the last one stands [`HOLD`] times as long.
 const DELAY: u16 = 8;
 const HOLD: u16 = 12;
@@ -73,8 +73,8 @@ impl Colouring {
 impl SnapshotPlot {
     /// The plot as an animated GIF, one frame a row.
     ///
-    /// The scale ends at 0.4 of the median of the frames' largest values, so that waves are seen which
-    /// are far from their source; what is beyond it has the last colour.
+    /// A hundredth of all values is beyond the scale and has its last colour: else the surroundings of
+    /// a source, early, would leave nothing to see of the waves.
     pub fn to_gif(&self) -> Result<Vec<u8>, PlotError> {
         self.check()?;
         let colours = Colouring::new(Colours::sequential(self.scale()));
@@ -128,14 +128,11 @@ impl SnapshotPlot {
 
     /// End of the scale; 1 where nothing moves.
     fn scale(&self) -> f64 {
-        let peak = |fields: &Vec<Field>| {
-            let values = fields.iter().flat_map(|field| &field.values);
-            values.fold(0.0, |m, v| f64::max(m, *v))
-        };
-        let mut peaks: Vec<f64> = self.rows.iter().map(|(_, fields)| peak(fields)).collect();
-        peaks.sort_by(f64::total_cmp);
-        let median = peaks.get(peaks.len() / 2).copied().unwrap_or(0.0);
-        if median > 0.0 { SCALE * median } else { 1.0 }
+        let fields = self.rows.iter().flat_map(|(_, fields)| fields);
+        let mut values: Vec<f64> = fields.flat_map(|field| &field.values).copied().collect();
+        let at = (WITHIN * values.len() as f64) as usize;
+        let (_, end, _) = values.select_nth_unstable_by(at, f64::total_cmp);
+        if *end > 0.0 { *end } else { 1.0 }
     }
 }
 
