@@ -4,6 +4,7 @@
 //! - [`spec`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
 //! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
 //! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
+//! - [`frames`]: fields over time on request.
 //! - [`runner`], [`progress`]: solving; [`store`]: records on disk.
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
@@ -17,6 +18,7 @@ pub mod draft;
 pub mod error;
 pub mod field;
 pub mod filter;
+pub mod frames;
 pub mod judge;
 pub mod pictures;
 pub mod prepare;

@@ -1,6 +1,7 @@
 //! Solves prepared scenes, each on one thread, several at a time, and stores each as it ends.
 
 use crate::error::CaseError;
+use crate::frames::{Frames, Sampling};
 use crate::prepare::Prepared;
 use crate::progress::Progress;
 use crate::provenance;
@@ -20,6 +21,8 @@ pub struct Run {
     pub manifest: Manifest,
     /// What was recorded.
     pub record: Record,
+    /// Fields over time, where they were asked for; not part of the stored record.
+    pub frames: Frames,
 }
 
 impl Run {
@@ -35,7 +38,12 @@ impl Run {
 ///
 /// # Errors
 /// [`CaseError::Storage`] when a result cannot be written; what was written before stays.
-pub fn run_all(scenes: Vec<Prepared>, jobs: usize, store: &Store) -> Result<Vec<Run>, CaseError> {
+pub fn run_all(
+    scenes: Vec<Prepared>,
+    sampling: Sampling,
+    jobs: usize,
+    store: &Store,
+) -> Result<Vec<Run>, CaseError> {
     let work = |p: &Prepared| (p.bill.points as u64) * (p.bill.steps as u64);
     let progress = Progress::new(scenes.iter().map(work).sum());
     let pool = rayon::ThreadPoolBuilder::new()
@@ -47,7 +55,7 @@ pub fn run_all(scenes: Vec<Prepared>, jobs: usize, store: &Store) -> Result<Vec<
             .into_par_iter()
             .with_max_len(1)
             .map(|scene| {
-                let run = run_one(scene, &progress);
+                let run = run_one(scene, sampling, &progress);
                 store.save(&run).map(|()| run)
             })
             .collect()
@@ -57,8 +65,9 @@ pub fn run_all(scenes: Vec<Prepared>, jobs: usize, store: &Store) -> Result<Vec<
 }
 
 /// Solves one scene on this thread and measures what it costs.
-fn run_one(prepared: Prepared, progress: &Progress) -> Run {
-    let problem = prepared.scene.problem();
+fn run_one(prepared: Prepared, sampling: Sampling, progress: &Progress) -> Run {
+    let scene = prepared.scene.problem();
+    let problem = sampling.of(&scene);
     let monitor = progress.monitor(prepared.bill.points);
     let mut outcome = None;
     let (wall, cpu) = (Instant::now(), ThreadTime::now());
@@ -74,6 +83,7 @@ fn run_one(prepared: Prepared, progress: &Progress) -> Run {
         }
         Err(error) => nothing(error.to_string()),
     };
+    let frames = sampling.part(&scene, &mut record);
     record.cost.wall_s = wall_s;
     record.cost.cpu_s = cpu_s;
     record.cost.peak_bytes = memory.bytes_max;
@@ -91,6 +101,7 @@ fn run_one(prepared: Prepared, progress: &Progress) -> Run {
         prepared,
         manifest,
         record,
+        frames,
     }
 }
 

@@ -5,7 +5,7 @@ use crate::certified::library::Library;
 use crate::error::CaseError;
 use crate::judge::references::References;
 use crate::judge::{PAPER, REFERENCE, judge_runs};
-use crate::pictures::{self, Picture};
+use crate::pictures::{self, Picture, animation};
 use crate::runner::Run;
 use crate::store::{json, load, read_json, save_rows, write_file};
 use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
@@ -19,6 +19,9 @@ use std::path::{Path, PathBuf};
 
 /// The metric that methods are ranked by.
 const RANKED_BY: &str = "echo_ratio";
+
+/// Name of the animation's file.
+pub const ANIMATION: &str = "animation.gif";
 
 /// What a study is for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -81,6 +84,8 @@ pub struct Published {
     pub notes: Vec<String>,
     /// The report.
     pub report: PathBuf,
+    /// The animation, where it was asked for.
+    pub animation: Option<PathBuf>,
 }
 
 /// Name of the study's file.
@@ -136,6 +141,18 @@ pub fn publish(
             Err(error) => return Err(error),
         }
     }
+    let animation = match animation::draw(&runs, &ranking) {
+        Ok(Some(gif)) => {
+            let path = folder.join(ANIMATION);
+            write_file(&path, &gif)?;
+            Some(path)
+        }
+        Ok(None) => None,
+        Err(reason) => {
+            notes.push(pictures::missing("animation", &reason));
+            None
+        }
+    };
     let ranked = ranking.methods.iter().any(|method| method.echo.is_some());
     let ranking = ranked.then_some(ranking);
     let report = folder.join("report.html");
@@ -156,6 +173,7 @@ pub fn publish(
         reference_missing: judged.reference_missing,
         notes,
         report,
+        animation,
     })
 }
 

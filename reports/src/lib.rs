@@ -12,11 +12,13 @@
 //! - [`ranking`]: methods by their echo, cost beside it, down to the floor of the reference.
 //! - [`table`], [`export`]: rows for the terminal and for other programs.
 //! - [`plot`]: pictures as SVG and PNG, one file a kind.
+//! - [`fields`]: fields for ParaView.
 //! - [`study`]: everything that a report shows, as data; [`provenance`]: where a result comes from.
 //! - [`html`]: the report as one self-contained page.
 //! - [`format`](mod@format): numbers as readers want them.
 
 pub mod export;
+pub mod fields;
 pub mod format;
 pub mod html;
 pub mod judge;

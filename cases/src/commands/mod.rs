@@ -7,10 +7,11 @@ use crate::certified::library::Library;
 use crate::certified::solve::{compute, difference, measure_floor};
 use crate::error::{CaseError, exit};
 use crate::filter::Filter;
+use crate::frames::Sampling;
 use crate::prepare::{Prepared, Request, Target};
 use crate::runner::run_all;
 use crate::store::Store;
-use crate::study::{Kind, Published, find_studies, publish};
+use crate::study::{ANIMATION, Kind, Published, find_studies, publish};
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::Status;
@@ -29,6 +30,8 @@ pub struct Options {
     pub filter: Option<String>,
     /// Results folder.
     pub out: PathBuf,
+    /// Fields over time.
+    pub sampling: Sampling,
     /// Runs at a time.
     pub jobs: usize,
     /// The command as typed, for the report.
@@ -46,6 +49,7 @@ impl Options {
             methods: Vec::new(),
             filter: None,
             out: out.to_owned(),
+            sampling: Sampling::default(),
             jobs: 1,
             command: format!("anechoic {case}"),
         }
@@ -224,7 +228,9 @@ pub fn report(folder: &Path, filter: Option<&str>) -> Result<Vec<Finished>, Case
 fn execute(plan: Plan, kind: Kind, options: &Options) -> Result<Finished, CaseError> {
     let store = Store::open(&options.out, &kind.folder(plan.case()))?;
     provide_references(&plan, &Library::of_results(&options.out))?;
-    let runs = run_all(plan.scenes, options.jobs, &store)?;
+    // One of earlier runs would not show these; that there is none is no failure.
+    let _ = std::fs::remove_file(store.folder().join(ANIMATION));
+    let runs = run_all(plan.scenes, options.sampling, options.jobs, &store)?;
     Finished::new(
         publish(store.folder(), runs, kind, &options.command)?,
         plan.filter.as_ref(),

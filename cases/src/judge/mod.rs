@@ -2,6 +2,7 @@
 
 mod arrivals;
 mod certified;
+mod goodness;
 mod papers;
 pub mod references;
 
@@ -115,7 +116,9 @@ fn measure(
     let windows = scene.windows();
     energies(run, &windows, numbers);
     let problem = scene.problem();
-    for reference in &references.of(run)? {
+    let truths = references.of(run)?;
+    let modelled = truths.iter().any(|truth| truth.role == Role::Modelled);
+    for reference in &truths {
         let subject = Subject {
             problem: &problem,
             method: &run.manifest.method,
@@ -124,6 +127,13 @@ fn measure(
             run: traces(&run.record, reference.quantity),
             standard: standard.map(|s| traces(&s.record, reference.quantity)),
         };
+        // Without echo is all that is known of some runs; where more is known, that is compared.
+        if reference.role == Role::Modelled
+            || reference.evidence == Evidence::Certified
+            || !modelled
+        {
+            goodness::measure(&subject, numbers);
+        }
         match reference.role {
             Role::Modelled => subject.against_model(numbers),
             Role::NoEcho => {

@@ -6,11 +6,14 @@
 //! | `manifest.json` | status, cost, provenance |
 //! | `metrics.json` | the rows of this run |
 //! | `receivers.csv`, `energy.csv` | series |
+//! | `fields.pvd`, `fields/*.vtu` | fields for ParaView, where they were asked for |
 //! | `record.json` | names and units of the series' columns, fields along lines, snapshots |
 
+mod fields;
 mod table;
 
 use crate::error::CaseError;
+use crate::frames::Frames;
 use crate::prepare::{Request, Target};
 use crate::runner::Run;
 use crate::scene_text;
@@ -124,6 +127,7 @@ impl Store {
         write("receivers.csv", &table::write(&record.receivers)?)?;
         write("energy.csv", &table::write(&record.energy)?)?;
         write("record.json", &compact_json(&fields)?)?;
+        fields::write(new.path(), &folder, &run.frames.fields)?;
         if folder.exists() {
             std::fs::remove_dir_all(&folder).map_err(|e| failed(&folder, e))?;
         }
@@ -180,6 +184,7 @@ pub fn load(folder: &Path) -> Result<Run, CaseError> {
         prepared,
         manifest,
         record,
+        frames: Frames::default(),
     })
 }
 
