@@ -4,6 +4,7 @@
 //! - [`spec`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
 //! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
 //! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
+//! - [`frames`]: fields over time on request.
 //! - [`runner`], [`progress`]: solving; [`store`]: records on disk; [`resume`]: those that are read
 //!   back instead of solved; [`foreign`]: series of other programs.
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
@@ -19,6 +20,7 @@ pub mod error;
 pub mod field;
 pub mod filter;
 pub mod foreign;
+pub mod frames;
 pub mod judge;
 pub mod pictures;
 pub mod prepare;

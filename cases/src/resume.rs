@@ -6,11 +6,13 @@
 //! was never interrupted. `--failed` does not: it is for trying again after a change of the program,
 //! and what ran well is kept; the report's provenance tells which run is whose.
 
+use crate::commands::Options;
 use crate::error::CaseError;
+use crate::frames::Sampling;
 use crate::prepare::Prepared;
 use crate::provenance::made_by_this_program;
 use crate::runner::{Run, Task};
-use crate::store::load;
+use crate::store::{FIELDS, load};
 use anechoic_solver::record::Status;
 use std::path::{Path, PathBuf};
 
@@ -40,7 +42,7 @@ pub enum Decision {
 
 impl Decision {
     /// What becomes of a scene in the study's folder.
-    pub fn of(scene: &Prepared, study: &Path, reuse: Reuse) -> Self {
+    pub fn of(scene: &Prepared, study: &Path, reuse: Reuse, sampling: Sampling) -> Self {
         let folder = study.join(folder(scene));
         match (reuse, folder.is_dir()) {
             (Reuse::Nothing, _) => return Decision::Solve("every run is solved".into()),
@@ -64,6 +66,14 @@ impl Decision {
         // Rows carry the profile's name; the same values may have been run under another.
         if run.manifest.profile != scene.profile {
             return Decision::Solve(format!("it was run as profile {}", run.manifest.profile));
+        }
+        if sampling.animation {
+            return Decision::Solve(
+                "its fields over time are not stored, and are asked for".into(),
+            );
+        }
+        if sampling.fields && !folder.join(FIELDS).is_file() {
+            return Decision::Solve("its fields for ParaView are asked for".into());
         }
         match made_by_this_program(&run.manifest.provenance) {
             Err(why) if reuse == Reuse::Whole => Decision::Solve(why),
@@ -107,10 +117,10 @@ pub struct Todo {
 ///
 /// # Errors
 /// [`CaseError::Usage`] when nothing is left.
-pub fn tasks(scenes: Vec<Prepared>, study: &Path, reuse: Reuse) -> Result<Todo, CaseError> {
+pub fn tasks(scenes: Vec<Prepared>, study: &Path, options: &Options) -> Result<Todo, CaseError> {
     let mut todo = Todo::default();
     for scene in scenes {
-        match Decision::of(&scene, study, reuse) {
+        match Decision::of(&scene, study, options.reuse, options.sampling) {
             Decision::Solve(_) => todo.tasks.push(Task::Solve(Box::new(scene))),
             // The scene as asked is the scene as stored: their hashes are the same.
             Decision::Take(run) => todo.tasks.push(Task::Take(Box::new(Run {
@@ -132,6 +142,7 @@ pub fn tasks(scenes: Vec<Prepared>, study: &Path, reuse: Reuse) -> Result<Todo, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::frames::Frames;
     use crate::prepare::{Request, Target};
     use crate::provenance;
     use crate::store::{Manifest, Store};
@@ -177,15 +188,24 @@ mod tests {
             prepared,
             manifest,
             record,
+            frames: Frames::default(),
         };
         store.save(&run).unwrap();
         store
     }
 
     fn decided(reuse: Reuse, change: impl FnOnce(&mut Manifest)) -> (&'static str, String) {
+        decided_with(reuse, Sampling::default(), change)
+    }
+
+    fn decided_with(
+        reuse: Reuse,
+        sampling: Sampling,
+        change: impl FnOnce(&mut Manifest),
+    ) -> (&'static str, String) {
         let root = tempfile::tempdir().unwrap();
         let store = stored(root.path(), change);
-        let decision = Decision::of(&prepared("gate"), store.folder(), reuse);
+        let decision = Decision::of(&prepared("gate"), store.folder(), reuse, sampling);
         (decision.word(), decision.why().to_owned())
     }
 
@@ -205,6 +225,15 @@ mod tests {
     }
 
     #[test]
+    fn fields_that_are_asked_for_and_not_there_have_to_be_solved_for() {
+        for (fields, animation) in [(true, false), (false, true)] {
+            let sampling = Sampling { fields, animation };
+            let (word, why) = decided_with(Reuse::Whole, sampling, |_| ());
+            assert!(word == "solve" && why.contains("asked for"), "{why}");
+        }
+    }
+
+    #[test]
     fn what_failed_or_was_stopped_is_solved_by_both() {
         for reuse in [Reuse::Whole, Reuse::AllButFailed] {
             let (word, why) = decided(reuse, |m| m.status = Status::Failed("det F".into()));
@@ -219,10 +248,12 @@ mod tests {
     #[test]
     fn what_is_missing_is_solved_by_resume_and_left_out_by_failed() {
         let root = tempfile::tempdir().unwrap();
-        let of = |reuse| Decision::of(&prepared("gate"), root.path(), reuse);
+        let of = |reuse| Decision::of(&prepared("gate"), root.path(), reuse, Sampling::default());
         assert_eq!(of(Reuse::Whole).word(), "solve");
         assert_eq!(of(Reuse::AllButFailed).word(), "leave out");
-        let nothing = tasks(vec![prepared("gate")], root.path(), Reuse::AllButFailed);
+        let mut options = Options::new("compression-1d", root.path());
+        options.reuse = Reuse::AllButFailed;
+        let nothing = tasks(vec![prepared("gate")], root.path(), &options);
         assert!(nothing.unwrap_err().to_string().contains("--failed"));
     }
 

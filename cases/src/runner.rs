@@ -1,6 +1,7 @@
 //! Solves prepared scenes, each on one thread, several at a time, and stores each as it ends.
 
 use crate::error::CaseError;
+use crate::frames::{Frames, Sampling};
 use crate::prepare::Prepared;
 use crate::progress::Progress;
 use crate::provenance;
@@ -22,6 +23,8 @@ pub struct Run {
     pub manifest: Manifest,
     /// What was recorded.
     pub record: Record,
+    /// Fields over time, where they were asked for; not part of the stored record.
+    pub frames: Frames,
 }
 
 impl Run {
@@ -72,7 +75,12 @@ impl Task {
 ///
 /// # Errors
 /// [`CaseError::Storage`] when a result cannot be written; what was written before stays.
-pub fn run_all(tasks: Vec<Task>, jobs: usize, store: &Store) -> Result<Vec<Run>, CaseError> {
+pub fn run_all(
+    tasks: Vec<Task>,
+    sampling: Sampling,
+    jobs: usize,
+    store: &Store,
+) -> Result<Vec<Run>, CaseError> {
     let progress = Progress::new(tasks.iter().map(Task::work).sum());
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(jobs)
@@ -85,7 +93,7 @@ pub fn run_all(tasks: Vec<Task>, jobs: usize, store: &Store) -> Result<Vec<Run>,
             .map(|task| match task {
                 Task::Take(run) => Ok(*run),
                 Task::Solve(scene) => {
-                    let run = run_one(*scene, &progress);
+                    let run = run_one(*scene, sampling, &progress);
                     store.save(&run).map(|()| run)
                 }
             })
@@ -96,8 +104,9 @@ pub fn run_all(tasks: Vec<Task>, jobs: usize, store: &Store) -> Result<Vec<Run>,
 }
 
 /// Solves one scene on this thread and measures what it costs.
-fn run_one(prepared: Prepared, progress: &Progress) -> Run {
-    let problem = prepared.scene.problem();
+fn run_one(prepared: Prepared, sampling: Sampling, progress: &Progress) -> Run {
+    let scene = prepared.scene.problem();
+    let problem = sampling.of(&scene);
     let monitor = progress.monitor(prepared.bill.points);
     let mut outcome = None;
     let (wall, cpu) = (Instant::now(), ThreadTime::now());
@@ -113,6 +122,7 @@ fn run_one(prepared: Prepared, progress: &Progress) -> Run {
         }
         Err(error) => nothing(error.to_string()),
     };
+    let frames = sampling.part(&scene, &mut record);
     record.cost.wall_s = wall_s;
     record.cost.cpu_s = cpu_s;
     record.cost.peak_bytes = memory.bytes_max;
@@ -131,6 +141,7 @@ fn run_one(prepared: Prepared, progress: &Progress) -> Run {
         prepared,
         manifest,
         record,
+        frames,
     }
 }
 

@@ -9,7 +9,7 @@ use crate::certified::library::Library;
 use crate::error::CaseError;
 use crate::judge::references::References;
 use crate::judge::{Judged, PAPER, REFERENCE, judge_runs, rows_unread};
-use crate::pictures::{self, Picture};
+use crate::pictures::{self, Picture, animation};
 use crate::runner::Run;
 use crate::store::{save_rows, write_file};
 use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
@@ -26,6 +26,9 @@ use stored::{Damage, Study};
 
 /// The metric that methods are ranked by.
 const RANKED_BY: &str = "echo_ratio";
+
+/// Name of the animation's file.
+pub const ANIMATION: &str = "animation.gif";
 
 /// What a study is for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -65,6 +68,8 @@ pub struct Published {
     pub notes: Vec<String>,
     /// The report.
     pub report: PathBuf,
+    /// The animation, where it was asked for.
+    pub animation: Option<PathBuf>,
 }
 
 /// Judges a study's runs and writes summary, JUnit, pictures and report into its folder.
@@ -113,6 +118,18 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
             Err(error) => return Err(error),
         }
     }
+    let animation = match animation::draw(&study.runs, &ranking) {
+        Ok(Some(gif)) => {
+            let path = folder.join(ANIMATION);
+            write_file(&path, &gif)?;
+            Some(path)
+        }
+        Ok(None) => None,
+        Err(reason) => {
+            notes.push(pictures::missing("animation", &reason));
+            None
+        }
+    };
     let ranked = ranking.methods.iter().any(|method| method.echo.is_some());
     let ranking = ranked.then_some(ranking);
     let report = folder.join("report.html");
@@ -127,6 +144,7 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         reference_missing: judged.reference_missing,
         notes,
         report,
+        animation,
     })
 }
 

@@ -13,12 +13,14 @@
 //! - [`table`], [`export`]: rows for the terminal and for other programs.
 //! - [`diff`](mod@diff): what changed from one list of rows to another.
 //! - [`plot`]: pictures as SVG and PNG, one file a kind.
+//! - [`fields`]: fields for ParaView.
 //! - [`study`]: everything that a report shows, as data; [`provenance`]: where a result comes from.
 //! - [`html`]: the report as one self-contained page.
 //! - [`format`](mod@format): numbers as readers want them.
 
 pub mod diff;
 pub mod export;
+pub mod fields;
 pub mod format;
 pub mod html;
 pub mod judge;

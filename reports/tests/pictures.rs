@@ -350,3 +350,81 @@ fn damaged_data_are_refused() {
     let missing = Field::magnitude(&snapshot(1.0, 0.0), &["vx"]);
     assert!(matches!(missing, Err(PlotError::Empty { .. })));
 }
+
+/// A frame as it is shown: what it changes on top of what was shown before.
+fn play(file: &[u8]) -> (Vec<Vec<u8>>, usize, Vec<u8>) {
+    let mut decoder = gif::DecodeOptions::new();
+    decoder.set_color_output(gif::ColorOutput::Indexed);
+    let mut decoder = decoder.read_info(file).expect("a GIF");
+    let table = decoder.global_palette().expect("one table").to_vec();
+    let width = usize::from(decoder.width());
+    let mut shown = vec![255; width * usize::from(decoder.height())];
+    let mut frames = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().expect("whole") {
+        let across = usize::from(frame.width);
+        for (row, values) in frame.buffer.chunks_exact(across).enumerate() {
+            let start = (usize::from(frame.top) + row) * width + usize::from(frame.left);
+            shown[start..start + across].copy_from_slice(values);
+        }
+        frames.push(shown.clone());
+    }
+    (frames, width, table)
+}
+
+#[test]
+fn an_animation_has_a_frame_a_time_and_one_scale() {
+    // The same field three times, the last time weaker.
+    let mut plot = snapshots();
+    let fields = plot.rows[0].1.clone();
+    for ((_, row), factor) in plot.rows.iter_mut().zip([1.0, 1.0, 0.1]) {
+        *row = fields.clone();
+        let values = row.iter_mut().flat_map(|field| &mut field.values);
+        values.for_each(|v| *v *= factor);
+    }
+    let file = plot.to_gif().expect("drawable");
+    let (frames, width, table) = play(&file);
+    assert_eq!(frames.len(), 3);
+    assert_eq!(table[..3], [0x44, 0x01, 0x54], "viridis starts dark");
+    // 201 colours of the map, then greys. Left of the colour bar, below the headlines, above the axis:
+    let height = frames[0].len() / width;
+    let largest = |frame: &[u8]| {
+        let rows = (40..height - 45).flat_map(|row| &frame[row * width + 98..row * width + 790]);
+        rows.copied().filter(|level| *level <= 200).max()
+    };
+    // A hundredth of all values is beyond the scale; pixels lie between nodes, where the field is a
+    // little smaller.
+    let fields = plot.rows.iter().flat_map(|(_, fields)| fields);
+    let mut values: Vec<f64> = fields.flat_map(|f| &f.values).copied().collect();
+    values.sort_by(f64::total_cmp);
+    let (end, peak) = (values[values.len() * 99 / 100], values[values.len() - 1]);
+    assert!(end < peak && peak < 10.0 * end);
+    assert_eq!(largest(&frames[0]), Some(200));
+    let level = 200.0 * 0.1 * peak / end;
+    let weak = f64::from(largest(&frames[2]).expect("a field"));
+    assert!(
+        weak <= level.round() && weak > 0.85 * level,
+        "{weak} {level}"
+    );
+    // Frames of the same field differ in their time alone, which stands above the colour bar.
+    let differ = |at: usize| frames[0][at] != frames[1][at];
+    let changed: Vec<usize> = (0..width * height).filter(|at| differ(*at)).collect();
+    assert!(!changed.is_empty());
+    assert!(
+        changed
+            .iter()
+            .all(|at| at / width < 22 && at % width >= 808)
+    );
+    if let Ok(folder) = std::env::var("ANECHOIC_PICTURES") {
+        let path = std::path::Path::new(&folder).join("animation.gif");
+        std::fs::write(path, file).expect("writable");
+    }
+}
+
+#[test]
+fn an_animation_of_damaged_fields_is_refused() {
+    let mut damaged = snapshots();
+    damaged.rows[1].1[2].values[7] = f64::NAN;
+    assert!(matches!(damaged.to_gif(), Err(PlotError::NonFinite { .. })));
+    damaged.rows.clear();
+    assert!(matches!(damaged.to_gif(), Err(PlotError::Empty { .. })));
+}

@@ -101,6 +101,7 @@ pub fn judged(methods: &[&str], change: impl Fn(&str, &mut Problem<2>)) -> Vec<R
         let record = solved(&problem);
         let hash = prepared.hash();
         Run {
+            frames: Default::default(),
             manifest: Manifest {
                 case: prepared.info.name.to_owned(),
                 profile: prepared.profile.clone(),

@@ -1,6 +1,7 @@
 //! Arguments.
 
 use crate::commands::{Options, ScoreOptions};
+use crate::frames::Sampling;
 use crate::prepare::Request;
 use crate::resume::Reuse;
 use anechoic_reports::diff::REL_TOL;
@@ -74,7 +75,7 @@ pub enum Command {
     Run(SolveArgs),
     /// Solve one scene with all methods that apply, judge and rank them.
     #[command(after_help = SOLVE_EXAMPLES)]
-    Compare(SolveArgs),
+    Compare(CompareArgs),
     /// Take a method apart: solve its variants and judge what each part absorbs.
     Ablation(WorkArgs),
     /// Compute a scene's certified reference and its floor, and store it.
@@ -162,6 +163,10 @@ pub struct SolveArgs {
     /// sides, compare: all that apply].
     #[arg(long)]
     method: Vec<String>,
+    /// Write fields.pvd for ParaView into each run's folder: the displacement at the scene's own
+    /// times and at 20 times over the run.
+    #[arg(long)]
+    fields: bool,
     #[command(flatten)]
     pub work: WorkArgs,
 }
@@ -171,8 +176,32 @@ impl SolveArgs {
     pub fn options(&self) -> Options {
         Options {
             methods: self.method.clone(),
+            sampling: Sampling {
+                fields: self.fields,
+                animation: false,
+            },
             ..self.work.options()
         }
+    }
+}
+
+/// Which scene, which methods, and what is shown of them.
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    #[command(flatten)]
+    pub solve: SolveArgs,
+    /// Write animation.gif beside the report: the wave field of the standard run, of a method and
+    /// of the run without echo, which are solved as well if they are not asked for.
+    #[arg(long)]
+    animate: bool,
+}
+
+impl CompareArgs {
+    /// The options, with the command as typed.
+    pub fn options(&self) -> Options {
+        let mut options = self.solve.options();
+        options.sampling.animation = self.animate;
+        options
     }
 }
 
@@ -212,6 +241,7 @@ impl WorkArgs {
             request: self.scene.request(),
             methods: Vec::new(),
             filter: self.filter.clone(),
+            sampling: Sampling::default(),
             out: self.out.clone(),
             jobs: match self.jobs {
                 Some(jobs) => jobs.into(),
@@ -261,6 +291,7 @@ impl ScoreArgs {
                 methods: self.method.iter().cloned().collect(),
                 filter: self.filter.clone(),
                 out: self.out.clone(),
+                sampling: Sampling::default(),
                 jobs: 1,
                 reuse: Reuse::Nothing,
                 command: typed(),

@@ -56,8 +56,8 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             let plan = commands::plan_run(&options)?;
             return solve_or_show(&solve.work, &options, &plan, || commands::run(&options));
         }
-        Some(Command::Compare(solve)) => {
-            let options = solve.options();
+        Some(Command::Compare(compare)) => {
+            let (solve, options) = (&compare.solve, compare.options());
             let plan = commands::plan_compare(&options)?;
             return solve_or_show(&solve.work, &options, &plan, || commands::compare(&options));
         }

@@ -280,6 +280,9 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
             _ => text += &measurement_table(&finished.rows),
         }
         let _ = writeln!(text, "\nreport: {}", finished.study.report.display());
+        if let Some(animation) = &finished.study.animation {
+            let _ = writeln!(text, "animation: {}", animation.display());
+        }
     }
     Ok(text)
 }

@@ -16,7 +16,12 @@ pub fn plan(plan: &Plan, options: &Options, format: Format) -> Result<String, Ca
     let decided: Vec<(&Prepared, Decision)> = plan
         .scenes
         .iter()
-        .map(|scene| (scene, Decision::of(scene, &study, options.reuse)))
+        .map(|scene| {
+            (
+                scene,
+                Decision::of(scene, &study, options.reuse, options.sampling),
+            )
+        })
         .collect();
     if format == Format::Json {
         let runs: Vec<Value> = decided

@@ -10,12 +10,13 @@ use crate::certified::library::Library;
 use crate::certified::solve::{compute, difference, measure_floor};
 use crate::error::{CaseError, exit};
 use crate::filter::Filter;
+use crate::frames::Sampling;
 use crate::prepare::{Prepared, Request, Target};
 use crate::resume::{Reuse, Todo, folder, tasks};
 use crate::runner::{Task, run_all};
 use crate::store::Store;
 use crate::study::stored::{Found, Study, find_studies};
-use crate::study::{Kind, Published, publish};
+use crate::study::{ANIMATION, Kind, Published, publish};
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::Status;
@@ -37,6 +38,8 @@ pub struct Options {
     pub filter: Option<String>,
     /// Results folder.
     pub out: PathBuf,
+    /// Fields over time.
+    pub sampling: Sampling,
     /// Runs at a time.
     pub jobs: usize,
     /// What is taken from earlier commands instead of solved.
@@ -56,6 +59,7 @@ impl Options {
             methods: Vec::new(),
             filter: None,
             out: out.to_owned(),
+            sampling: Sampling::default(),
             jobs: 1,
             reuse: Reuse::Nothing,
             command: format!("anechoic {case}"),
@@ -272,7 +276,7 @@ fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
             store.sweep(&folder(scene))?;
         }
     }
-    let Todo { tasks, left_out } = tasks(plan.scenes, store.folder(), options.reuse)?;
+    let Todo { tasks, left_out } = tasks(plan.scenes, store.folder(), options)?;
     let mut finished = execute_tasks(tasks, &store, plan.filter.as_ref(), plan.kind, options)?;
     let left_out = left_out.into_iter();
     let notes = left_out.map(|(method, why)| format!("{method} is left out: {why}"));
@@ -299,7 +303,9 @@ fn execute_tasks(
     let scenes = tasks.iter().map(Task::scene);
     provide_references(scenes, &Library::of_results(&options.out))?;
     study.announce()?;
-    let runs = run_all(tasks, options.jobs, store)?;
+    // One of earlier runs would not show these; that there is none is no failure.
+    let _ = std::fs::remove_file(store.folder().join(ANIMATION));
+    let runs = run_all(tasks, options.sampling, options.jobs, store)?;
     Finished::new(publish(Study { runs, ..study })?, filter)
 }
 

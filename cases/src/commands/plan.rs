@@ -89,6 +89,14 @@ impl Plan {
                     || (certified && *name == CERTIFIER)
             });
         }
+        if options.sampling.animation {
+            // It shows the method between the standard run and the one without echo.
+            for name in [target.info.standard, CERTIFIER] {
+                if target.info.method(name).is_some() && !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+        }
         let (mut scenes, mut left_out) = (Vec::new(), Vec::new());
         for name in names {
             let file_says = described_name.as_deref() == Some(name);

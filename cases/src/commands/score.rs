@@ -4,6 +4,7 @@ use super::{Finished, Options, Plan, execute_tasks};
 use crate::error::CaseError;
 use crate::filter::Filter;
 use crate::foreign::Foreign;
+use crate::frames::{Frames, Sampling};
 use crate::judge::{PAPER, REFERENCE};
 use crate::prepare::{Prepared, Target};
 use crate::resume::{Decision, Reuse};
@@ -71,6 +72,7 @@ pub fn score(options: &ScoreOptions) -> Result<Finished, CaseError> {
         },
         prepared: scene,
         record,
+        frames: Frames::default(),
     };
     store.save(&run)?;
     let earlier = earlier(store.folder(), &run);
@@ -91,7 +93,7 @@ pub fn score(options: &ScoreOptions) -> Result<Finished, CaseError> {
 fn ours(plan: Plan, study: &Path, standard: &str) -> (Vec<Task>, Vec<String>) {
     let (mut tasks, mut absent) = (Vec::new(), Vec::new());
     for scene in plan.scenes {
-        match Decision::of(&scene, study, Reuse::AllButFailed) {
+        match Decision::of(&scene, study, Reuse::AllButFailed, Sampling::default()) {
             Decision::Take(run) => tasks.push(Task::Take(Box::new(Run {
                 prepared: scene,
                 ..*run

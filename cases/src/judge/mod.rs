@@ -2,6 +2,7 @@
 
 mod arrivals;
 mod certified;
+mod goodness;
 mod papers;
 pub mod references;
 mod rows;
@@ -100,7 +101,13 @@ fn measure(
         energies(run, &windows, numbers);
     }
     let problem = scene.problem();
-    for reference in &references.of(run)? {
+    let mut truths = references.of(run)?;
+    if run.manifest.judged_as().is_none() {
+        // Of another program nobody said what its boundary is a model of.
+        truths.retain(|truth| truth.role != Role::Modelled);
+    }
+    let modelled = truths.iter().any(|truth| truth.role == Role::Modelled);
+    for reference in &truths {
         let subject = Subject {
             problem: &problem,
             method: &run.manifest.method,
@@ -109,9 +116,14 @@ fn measure(
             run: traces(&run.record, reference.quantity),
             standard: standard.map(|s| traces(&s.record, reference.quantity)),
         };
+        // Without echo is all that is known of some runs; where more is known, that is compared.
+        if reference.role == Role::Modelled
+            || reference.evidence == Evidence::Certified
+            || !modelled
+        {
+            goodness::measure(&subject, numbers);
+        }
         match reference.role {
-            // Of another program it must be said what its boundary is.
-            Role::Modelled if run.manifest.judged_as().is_none() => {}
             Role::Modelled => subject.against_model(numbers),
             Role::NoEcho => {
                 subject.echo(&windows, scene.pulse_amplitude(), numbers);

@@ -10,10 +10,10 @@ use anechoic_solver::material_box;
 use anechoic_solver::record::Snapshot;
 
 /// The method whose fields are shown between standard and reference, where it was run; else the best.
-const SHOWN: &str = "pml";
+pub(super) const SHOWN: &str = "pml";
 
 /// Ground shown around the method's mesh, over its width.
-const AROUND: f64 = 0.04;
+pub(super) const AROUND: f64 = 0.04;
 
 /// Velocity over place and time, methods side by side.
 pub(super) fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
@@ -121,16 +121,16 @@ pub(super) fn snapshots(
 }
 
 /// The snapshot of a time.
-fn at(snapshots: &[Snapshot], time: f64) -> Option<&Snapshot> {
+pub(super) fn at(snapshots: &[Snapshot], time: f64) -> Option<&Snapshot> {
     snapshots.iter().find(|s| (s.time - time).abs() < 1e-6)
 }
 
-fn magnitude(snapshot: &Snapshot) -> Result<Field, PlotError> {
+pub(super) fn magnitude(snapshot: &Snapshot) -> Result<Field, PlotError> {
     Field::magnitude(snapshot, &["ux", "uy"])
 }
 
 /// All material of a run (m).
-fn mesh(run: &Run) -> Corners {
+pub(super) fn mesh(run: &Run) -> Corners {
     let problem = run.prepared.scene.problem();
     // What was run was set up before.
     let all = material_box(&problem).unwrap_or(problem.target);
@@ -138,7 +138,7 @@ fn mesh(run: &Run) -> Corners {
 }
 
 /// A box grown by a share of its width, but not beyond its top, where nothing is.
-fn around([lower, upper]: Corners, share: f64) -> Corners {
+pub(super) fn around([lower, upper]: Corners, share: f64) -> Corners {
     let margin = share * (upper[0] - lower[0]);
     [
         [lower[0] - margin, lower[1] - margin],

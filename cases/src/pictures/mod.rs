@@ -1,5 +1,6 @@
 //! Pictures of a study. Only complete runs are drawn; the report says which are not.
 
+pub mod animation;
 mod fields;
 
 use crate::judge::references::References;
@@ -43,6 +44,9 @@ pub enum PictureError {
     /// The drawing fails.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// Runs are missing.
+    #[error("{0}")]
+    Incomplete(&'static str),
 }
 
 /// The pictures that could be made, and why others could not.

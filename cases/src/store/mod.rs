@@ -6,19 +6,23 @@
 //! | `manifest.json` | status, cost, provenance |
 //! | `metrics.json` | the rows of this run |
 //! | `receivers.csv`, `energy.csv` | series |
+//! | `fields.pvd`, `fields/*.vtu` | fields for ParaView, where they were asked for |
 //! | `record.json` | names and units of the series' columns, fields along lines, snapshots |
-//! | `SHA256SUMS` | hashes of the files, by which a record that is no longer whole is found |
+//! | `SHA256SUMS` | hashes of the files that reports are made from, by which a record that is no longer whole is found |
 
+mod fields;
 mod sums;
 mod table;
 
 use crate::error::CaseError;
+use crate::frames::Frames;
 use crate::prepare::{Request, Target};
 use crate::runner::Run;
 use crate::scene_text;
 use anechoic_reports::provenance::Provenance;
 use anechoic_reports::row::Row;
 use anechoic_solver::record::{Cost, Record, Snapshot, SpaceTime, Status};
+pub use fields::LIST as FIELDS;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io::Write;
@@ -179,6 +183,7 @@ impl Store {
             std::fs::write(new.path().join(name), content)
                 .map_err(|e| failed(&folder.join(name), e))?;
         }
+        fields::write(new.path(), &folder, &run.frames.fields)?;
         if folder.exists() {
             std::fs::remove_dir_all(&folder).map_err(|e| failed(&folder, e))?;
         }
@@ -245,6 +250,7 @@ pub fn load(folder: &Path) -> Result<Run, CaseError> {
         prepared,
         manifest,
         record,
+        frames: Frames::default(),
     })
 }
 

@@ -94,10 +94,11 @@ pub fn arrival_lag(
     Ok((lag as f64 + shift) * step)
 }
 
-fn uniform_step(times: &[f64]) -> Result<f64, NormError> {
+/// The step (s) of uniform times.
+pub(super) fn uniform_step(times: &[f64]) -> Result<f64, NormError> {
     if times.len() < 3 {
         return Err(NormError::TooFew {
-            what: "a correlation",
+            what: "a uniform series",
             needed: 3,
             found: times.len(),
         });

@@ -81,6 +81,15 @@ pub fn with_groups_db(levels: &[Score]) -> Result<Vec<Score>, NormError> {
     Ok(rows)
 }
 
+/// As [`with_groups`] for scores of which the largest is the best: the worst is the smallest.
+pub fn with_groups_of_goodness(scores: &[Score]) -> Result<Vec<Score>, NormError> {
+    let negate = |scores: &[Score]| -> Vec<Score> {
+        let of = |s: &Score| Score::new(&s.place, -s.value);
+        scores.iter().map(of).collect()
+    };
+    Ok(negate(&with_groups(&negate(scores))?))
+}
+
 fn groups(scores: &[Score]) -> Vec<(&str, Vec<&Score>)> {
     let mut groups: Vec<(&str, Vec<&Score>)> = Vec::new();
     for score in scores {
@@ -135,6 +144,17 @@ mod tests {
     fn a_receiver_named_like_a_group_is_refused() {
         let rows = with_groups(&[Score::new("A", 1.0), Score::new("A1", 2.0)]);
         assert!(matches!(rows, Err(NormError::AmbiguousReceiver { .. })));
+    }
+
+    #[test]
+    fn the_worst_goodness_is_the_smallest() {
+        let rows = with_groups_of_goodness(&[Score::new("A1", 9.0), Score::new("A2", 4.0)])
+            .expect("names are clear");
+        let expected = [("A1", 9.0), ("A2", 4.0), ("A", 6.5), ("A:worst", 4.0)];
+        assert_eq!(
+            rows,
+            expected.map(|(place, value)| Score::new(place, value))
+        );
     }
 
     #[test]

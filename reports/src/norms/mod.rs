@@ -9,6 +9,7 @@
 //! | [`arrival`] | arrival differences by cross-correlation |
 //! | [`energy`] | `energy_left`, `growth_rate_per_s` |
 //! | [`field`] | `l1`, `l2`, `linf` of fields |
+//! | [`goodness`] | `envelope_misfit`, `phase_misfit`, `goodness` |
 //! | [`mod@order`] | `order` of convergence |
 //!
 //! A missing, extra, reshaped or non-finite series and differing time stamps are a [`NormError`];
@@ -18,6 +19,7 @@ pub mod arrival;
 pub mod echo;
 pub mod energy;
 pub mod field;
+pub mod goodness;
 pub mod group;
 pub mod order;
 pub mod peak;
@@ -32,7 +34,10 @@ pub use echo::{
 pub use energy::{energy_left, growth_rate_per_s, target_energy};
 pub use field::{FieldNorms, field_norms};
 pub use fit::Slope;
-pub use group::{Score, group_of, group_worst, with_groups, with_groups_db};
+pub use goodness::{Misfit, misfits};
+pub use group::{
+    Score, group_of, group_worst, with_groups, with_groups_db, with_groups_of_goodness,
+};
 pub use order::{Order, order};
 pub use peak::{peak_deviation, rd, rd_at, rd_of_maximum};
 pub use traces::{Trace, Traces};
@@ -101,7 +106,7 @@ pub enum NormError {
         index: usize,
     },
     /// Sampling is not uniform where it has to be.
-    #[error("times are not uniform at sample {index}; resample before correlating")]
+    #[error("times are not uniform at sample {index}; resample before going on")]
     NotUniform {
         /// First sample off the raster.
         index: usize,
@@ -147,6 +152,18 @@ pub enum NormError {
         needed: usize,
         /// Given number.
         found: usize,
+    },
+    /// No frequency of a signal can be told apart in so short a record.
+    #[error(
+        "{what} reaches up to {highest} Hz, and a record this long resolves {lowest} Hz and more: a longer run is needed"
+    )]
+    NoBand {
+        /// Which signal.
+        what: String,
+        /// Lowest frequency that the record resolves (Hz).
+        lowest: f64,
+        /// Highest frequency of the signal, or that the sampling allows (Hz).
+        highest: f64,
     },
     /// The best lag lies at the end of the searched range.
     #[error("the correlation still rises at a lag of {lag_s} s; widen the searched range")]

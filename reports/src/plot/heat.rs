@@ -36,7 +36,13 @@ impl Colours {
         }
     }
 
-    fn level(&self, value: f64) -> f64 {
+    /// All colours of the map, from the lower end of the range to the upper.
+    pub fn levels(&self) -> impl Iterator<Item = RGBColor> {
+        (0..=LEVELS as u32).map(|level| (self.map)(f64::from(level) / LEVELS))
+    }
+
+    /// Which of [`Self::levels`] a value has.
+    pub fn level(&self, value: f64) -> f64 {
         let share = (value - self.range.0) / (self.range.1 - self.range.0);
         (share.clamp(0.0, 1.0) * LEVELS).round()
     }
@@ -51,7 +57,7 @@ pub(super) struct Raster<'a> {
 
 impl Raster<'_> {
     /// Bilinear between the samples, constant beyond them.
-    fn at(&self, x: f64, y: f64) -> f64 {
+    pub fn at(&self, x: f64, y: f64) -> f64 {
         let (ix, sx) = bracket(self.x, x);
         let (iy, sy) = bracket(self.y, y);
         let jx = (ix + 1).min(self.x.len() - 1);

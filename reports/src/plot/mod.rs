@@ -8,12 +8,14 @@
 //! | [`bars`] | echo of each method with its cost beside it |
 //! | [`space_time`] | a field over place and time, methods side by side |
 //! | [`snapshots`] | fields on a lattice, methods by times |
+//! | [`animation`] | the same as an animated GIF, one frame a time |
 //! | [`convergence`] | error against cell size, log-log |
 //!
 //! Each has a `draw` that gives a [`Drawing`]: a list of marks, written by [`Drawing::to_svg`] and
 //! [`Drawing::to_png`]. Shared parts: [`drawing`] (marks), `writer` (files), `axis`, `panels` (line
 //! panels), `heat` (coloured fields), [`palette`].
 
+pub mod animation;
 pub mod bars;
 pub mod convergence;
 pub mod drawing;

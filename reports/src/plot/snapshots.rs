@@ -7,12 +7,12 @@ use super::{PlotError, check, empty, palette};
 use anechoic_solver::record::Snapshot;
 
 const PICTURE: &str = "snapshots";
-const WIDTH: f64 = 900.0;
+pub(super) const WIDTH: f64 = 900.0;
 const LEFT: f64 = 98.0;
-const BAR: f64 = 92.0;
+pub(super) const BAR: f64 = 92.0;
 const GAP: f64 = 24.0;
 const TOP: f64 = 26.0;
-const FOOT: f64 = 40.0;
+pub(super) const FOOT: f64 = 40.0;
 
 /// Magnitude of a vector field on a lattice of the x-y plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +54,17 @@ impl Field {
     }
 }
 
+impl Field {
+    /// Gives the field as a raster.
+    pub(super) fn raster_with<T>(&self, use_it: impl FnOnce(&Raster<'_>) -> T) -> T {
+        use_it(&Raster {
+            x: &self.x,
+            y: &self.y,
+            value: &|ix, iy| self.values[iy * self.x.len() + ix],
+        })
+    }
+}
+
 /// Small multiples of fields.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SnapshotPlot {
@@ -78,27 +89,21 @@ impl SnapshotPlot {
     /// Draws it.
     pub fn draw(&self) -> Result<Drawing, PlotError> {
         self.check()?;
-        let across = self.methods.len() as f64;
-        let width = (WIDTH - LEFT - BAR - 14.0 - GAP * (across - 1.0)) / across;
-        let [lower, upper] = self.extent;
-        let aspect = (upper[1] - lower[1]) / (upper[0] - lower[0]);
-        let height = (width * aspect).clamp(40.0, 420.0);
+        let (_, height) = self.panel_size();
         let total = TOP + self.rows.len() as f64 * (height + GAP) + FOOT;
         let mut drawing = Drawing::new(WIDTH as u32, total as u32);
         let colours = Colours::sequential(self.limit());
         for (row, (time, fields)) in self.rows.iter().enumerate() {
             for (column, field) in fields.iter().enumerate() {
-                let panel = Panel {
-                    left: LEFT + column as f64 * (width + GAP),
-                    top: TOP + row as f64 * (height + GAP),
-                    width,
-                    height,
-                    x: Axis::linear(lower[0], upper[0], (width / 60.0) as usize),
-                    y: Axis::linear(lower[1], upper[1], (height / 30.0) as usize),
-                };
+                let panel = self.panel(column, TOP + row as f64 * (height + GAP));
                 draw_ground(&mut drawing, &panel, &self.meshes[column]);
                 draw_field(&mut drawing, &panel, field, &colours);
-                self.label(&mut drawing, &panel, (row, column), *time);
+                let ends = (row == 0, row + 1 == self.rows.len());
+                self.label(&mut drawing, &panel, column, ends);
+                if column == 0 {
+                    let text = format!("t = {} s", crate::format::short(*time));
+                    panel.y_title(&mut drawing, &text, 84.0);
+                }
             }
         }
         let bar = (total - TOP - FOOT - GAP).min(260.0);
@@ -107,7 +112,30 @@ impl SnapshotPlot {
         Ok(drawing)
     }
 
-    fn check(&self) -> Result<(), PlotError> {
+    /// Width and height of a panel (logical pixels).
+    pub(super) fn panel_size(&self) -> (f64, f64) {
+        let across = self.methods.len() as f64;
+        let width = (WIDTH - LEFT - BAR - 14.0 - GAP * (across - 1.0)) / across;
+        let [lower, upper] = self.extent;
+        let aspect = (upper[1] - lower[1]) / (upper[0] - lower[0]);
+        (width, (width * aspect).clamp(40.0, 420.0))
+    }
+
+    /// The panel of a method.
+    pub(super) fn panel(&self, column: usize, top: f64) -> Panel {
+        let (width, height) = self.panel_size();
+        let [lower, upper] = self.extent;
+        Panel {
+            left: LEFT + column as f64 * (width + GAP),
+            top,
+            width,
+            height,
+            x: Axis::linear(lower[0], upper[0], (width / 60.0) as usize),
+            y: Axis::linear(lower[1], upper[1], (height / 30.0) as usize),
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), PlotError> {
         if self.methods.is_empty() || self.rows.is_empty() {
             return Err(empty(PICTURE, "no method or no time"));
         }
@@ -156,16 +184,17 @@ impl SnapshotPlot {
         if largest > 0.0 { largest } else { 1.0 }
     }
 
-    fn label(
+    /// Frame and axes of a method's panel; headlines stand on the first row, the names of the axis
+    /// below the last.
+    pub(super) fn label(
         &self,
         drawing: &mut Drawing,
         panel: &Panel,
-        (row, column): (usize, usize),
-        time: f64,
+        column: usize,
+        (first, last): (bool, bool),
     ) {
-        let last = row + 1 == self.rows.len();
         panel.frame(drawing, last, column == 0);
-        if row == 0 {
+        if first {
             panel.headline(drawing, &self.methods[column]);
         }
         if last {
@@ -173,8 +202,6 @@ impl SnapshotPlot {
         }
         if column == 0 {
             panel.y_title(drawing, "y (m)", 56.0);
-            let text = format!("t = {} s", crate::format::short(time));
-            panel.y_title(drawing, &text, 84.0);
         }
     }
 }
@@ -186,7 +213,7 @@ fn inside(panel: &Panel, [lower, upper]: &Corners) -> ((f64, f64), (f64, f64)) {
 }
 
 /// Material around the field, with its outer edge.
-fn draw_ground(drawing: &mut Drawing, panel: &Panel, mesh: &Corners) {
+pub(super) fn draw_ground(drawing: &mut Drawing, panel: &Panel, mesh: &Corners) {
     let (a, b) = inside(panel, mesh);
     drawing.add(Mark::Fill(a, b, palette::GRID));
     let outline = vec![a, (a.0, b.1), b, (b.0, a.1)];
@@ -195,23 +222,29 @@ fn draw_ground(drawing: &mut Drawing, panel: &Panel, mesh: &Corners) {
 
 /// The field in its own part of the panel, outlined.
 fn draw_field(drawing: &mut Drawing, panel: &Panel, field: &Field, colours: &Colours) {
+    let part = field_part(panel, field);
+    field.raster_with(|raster| raster.draw(drawing, &part, colours));
+    outline(drawing, &part);
+}
+
+/// The part of a panel that a field takes.
+pub(super) fn field_part(panel: &Panel, field: &Field) -> Panel {
     let ends = |values: &[f64]| (values[0], values[values.len() - 1]);
     let ((x0, x1), (y0, y1)) = (ends(&field.x), ends(&field.y));
     let (a, b) = inside(panel, &[[x0, y0], [x1, y1]]);
-    let part = Panel {
+    Panel {
         left: a.0,
         top: a.1,
         width: b.0 - a.0,
         height: b.1 - a.1,
         x: Axis::linear(x0, x1, 1),
         y: Axis::linear(y0, y1, 1),
-    };
-    let raster = Raster {
-        x: &field.x,
-        y: &field.y,
-        value: &|ix, iy| field.values[iy * field.x.len() + ix],
-    };
-    raster.draw(drawing, &part, colours);
-    let outline = vec![a, (a.0, b.1), b, (b.0, a.1)];
-    drawing.add(Mark::Path(outline, Stroke::solid(palette::INK, 1.0)));
+    }
+}
+
+/// The edge between the target and what lies around it.
+pub(super) fn outline(drawing: &mut Drawing, part: &Panel) {
+    let (a, b) = ((part.left, part.top), (part.right(), part.bottom()));
+    let corners = vec![a, (a.0, b.1), b, (b.0, a.1)];
+    drawing.add(Mark::Path(corners, Stroke::solid(palette::INK, 1.0)));
 }

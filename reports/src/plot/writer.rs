@@ -39,6 +39,13 @@ impl Drawing {
 
     /// The picture as PNG, two pixels for a logical one.
     pub fn to_png(&self) -> Result<Vec<u8>, PlotError> {
+        let pixels = self.to_pixels(PNG_SCALE)?;
+        encode(&pixels, self.width * PNG_SCALE, self.height * PNG_SCALE)
+    }
+
+    /// The picture as RGB, row by row, with `scale` pixels for a logical one; `scale` divides
+    /// [`DRAWN`].
+    pub(super) fn to_pixels(&self, scale: u32) -> Result<Vec<u8>, PlotError> {
         ready_font()?;
         let size = (self.width * DRAWN, self.height * DRAWN);
         let mut pixels = vec![0u8; size.0 as usize * size.1 as usize * 3];
@@ -47,9 +54,8 @@ impl Drawing {
             self.draw_on(&root, Pen::Round)?;
             root.present().map_err(backend)?;
         }
-        let factor = DRAWN / PNG_SCALE;
-        let averaged = average(&pixels, size.0 as usize, factor as usize);
-        encode(&averaged, self.width * PNG_SCALE, self.height * PNG_SCALE)
+        let factor = DRAWN / scale;
+        Ok(average(&pixels, size.0 as usize, factor as usize))
     }
 
     fn draw_on<DB: DrawingBackend>(

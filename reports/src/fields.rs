@@ -1,0 +1,116 @@
+//! Fields for ParaView: a `.vtu` a time (unstructured grid, XML, zlib), and the `.pvd` that lists them.
+
+use anechoic_solver::record::{Column, Snapshot};
+use std::fmt::Write;
+use thiserror::Error;
+use vtkio::model::{
+    Attribute, Attributes, ByteOrder, CellType, Cells, DataSet, UnstructuredGridPiece, Version,
+    VertexNumbers, Vtk,
+};
+use vtkio::xml::{self, Compressor};
+
+/// Effort of the compressor, 0..9.
+const EFFORT: u32 = 6;
+
+/// Why a field cannot be written.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum FieldError {
+    /// Samples do not lie on a plane lattice.
+    #[error(
+        "the field has {0:?} samples along the axes; at least 2 by 2, and 1 along z, are needed"
+    )]
+    Shape([usize; 3]),
+    /// A component is missing or of another length than the lattice.
+    #[error("the field has no component {name} of {samples} samples")]
+    Component {
+        /// Name of its column.
+        name: &'static str,
+        /// Needed length.
+        samples: usize,
+    },
+    /// The library refuses to write it.
+    #[error("the file cannot be written: {0}")]
+    Write(String),
+}
+
+/// The displacement on the nodes of a snapshot's plane lattice: quadrilaterals with the vector
+/// `displacement` (m) at their corners, in single precision. Values that are not finite stay so.
+pub fn vtu(snapshot: &Snapshot) -> Result<Vec<u8>, FieldError> {
+    let [nx, ny, nz] = snapshot.counts;
+    if nx < 2 || ny < 2 || nz != 1 {
+        return Err(FieldError::Shape(snapshot.counts));
+    }
+    let (x, y) = (component(snapshot, "ux")?, component(snapshot, "uy")?);
+    let place =
+        |axis: usize, i: usize| (snapshot.origin[axis] + i as f64 * snapshot.spacing[axis]) as f32;
+    let nodes = || (0..ny).flat_map(|iy| (0..nx).map(move |ix| (ix, iy)));
+    let points: Vec<f32> = nodes()
+        .flat_map(|(ix, iy)| [place(0, ix), place(1, iy), snapshot.origin[2] as f32])
+        .collect();
+    let vectors = x.values.iter().zip(&y.values);
+    let vectors: Vec<f32> = vectors
+        .flat_map(|(x, y)| [*x as f32, *y as f32, 0.0])
+        .collect();
+    let corners: Vec<u64> = nodes()
+        .filter(|(ix, iy)| ix + 1 < nx && iy + 1 < ny)
+        .flat_map(|(ix, iy)| {
+            let first = (iy * nx + ix) as u64;
+            let above = first + nx as u64;
+            [first, first + 1, above + 1, above]
+        })
+        .collect();
+    let count = (nx - 1) * (ny - 1);
+    let piece = UnstructuredGridPiece {
+        points: points.into(),
+        cells: Cells {
+            cell_verts: VertexNumbers::XML {
+                connectivity: corners,
+                offsets: (1..=count as u64).map(|n| 4 * n).collect(),
+            },
+            types: vec![CellType::Quad; count],
+        },
+        data: Attributes {
+            point: vec![Attribute::vectors("displacement").with_data(vectors)],
+            cell: Vec::new(),
+        },
+    };
+    let failed = |error: xml::Error| FieldError::Write(error.to_string());
+    let file = Vtk {
+        version: Version::new_xml(1, 0),
+        title: String::new(),
+        byte_order: ByteOrder::LittleEndian,
+        data: DataSet::inline(piece),
+        file_path: None,
+    };
+    let mut bytes = Vec::new();
+    file.try_into_xml_format(Compressor::ZLib, EFFORT)
+        .map_err(failed)?
+        .write(&mut bytes)
+        .map_err(failed)?;
+    Ok(bytes)
+}
+
+fn component<'a>(snapshot: &'a Snapshot, name: &'static str) -> Result<&'a Column, FieldError> {
+    let samples = snapshot.counts.iter().product();
+    let column = snapshot.columns.iter().find(|c| c.name == name);
+    column
+        .filter(|c| c.values.len() == samples)
+        .ok_or(FieldError::Component { name, samples })
+}
+
+/// The list of files by their time (s); names are relative to it and hold no character that XML
+/// reserves.
+pub fn pvd<'a>(files: impl IntoIterator<Item = (f64, &'a str)>) -> String {
+    let mut text = String::from(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n",
+    );
+    for (time, name) in files {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "    <DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>"
+        );
+    }
+    text.push_str("  </Collection>\n</VTKFile>\n");
+    text
+}
