@@ -13,6 +13,7 @@ const METRICS: &[&str] = &[
     "peak_error",
     "peak_deviation",
     "arrival_s",
+    "order",
     "energy_left",
     "growth_rate_per_s",
     "serves_until_s",

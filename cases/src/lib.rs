@@ -7,6 +7,7 @@
 //! - [`runner`], [`progress`]: solving; [`store`]: records on disk.
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
+//! - [`over`]: levels of convergence studies.
 //! - [`commands`], [`cli`]: the program.
 
 pub mod certified;
@@ -19,6 +20,7 @@ pub mod field;
 pub mod filter;
 pub mod half_space;
 pub mod judge;
+pub mod over;
 pub mod pictures;
 pub mod prepare;
 pub mod progress;

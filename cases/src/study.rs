@@ -4,10 +4,12 @@
 use crate::certified::library::Library;
 use crate::error::CaseError;
 use crate::judge::references::References;
-use crate::judge::{PAPER, REFERENCE, judge_runs};
+use crate::judge::{PAPER, REFERENCE, judge_levels, judge_runs};
+use crate::over::level_in;
 use crate::pictures::{self, Picture};
 use crate::runner::Run;
 use crate::store::{json, load, read_json, save_rows, write_file};
+use anechoic_reports::convergence::{Convergence, at_level, label};
 use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
 use anechoic_reports::html;
 use anechoic_reports::plot::PlotError;
@@ -21,7 +23,7 @@ use std::path::{Path, PathBuf};
 const RANKED_BY: &str = "echo_ratio";
 
 /// What a study is for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// Methods side by side, ranked.
@@ -29,14 +31,45 @@ pub enum Kind {
     Comparison,
     /// A method taken apart: what each part absorbs.
     Ablation,
+    /// A scene on finer and finer levels, coarse first: with which order errors fall.
+    Convergence {
+        /// The field that is refined.
+        over: String,
+    },
 }
 
 impl Kind {
     /// Folder of a case's study of this kind.
-    pub fn folder(self, case: &str) -> String {
+    pub fn folder(&self, case: &str) -> String {
         match self {
             Kind::Comparison => case.to_owned(),
             Kind::Ablation => format!("{case}-ablation"),
+            Kind::Convergence { .. } => format!("{case}-converge"),
+        }
+    }
+
+    /// What tells a run from the others of its study, for people.
+    pub fn name(&self, run: &Run) -> String {
+        let method = run.manifest.method.as_str();
+        match self.level(run) {
+            Some((over, value)) => format!("{method}, {}", label(over, value)),
+            None => method.to_owned(),
+        }
+    }
+
+    /// Is a row one of this run's?
+    fn owns(&self, run: &Run, row: &Row) -> bool {
+        let place = self
+            .level(run)
+            .map(|(over, value)| at_level("", over, value));
+        row.method == run.manifest.method && place.is_none_or(|end| row.place.ends_with(&end))
+    }
+
+    /// The field that is refined, and a run's value of it.
+    fn level(&self, run: &Run) -> Option<(&str, f64)> {
+        match self {
+            Kind::Convergence { over } => Some((over, level_in(&run.prepared.table, over)?)),
+            Kind::Comparison | Kind::Ablation => None,
         }
     }
 }
@@ -73,6 +106,10 @@ pub struct Published {
     pub runs: Vec<Run>,
     /// All rows.
     pub rows: Vec<Row>,
+    /// Errors on several levels, where a scene was refined.
+    pub convergence: Option<Convergence>,
+    /// The runs' names, which tell them apart.
+    pub names: Vec<String>,
     /// Methods by their echo; `None` when no echo ratio was measured.
     pub ranking: Option<Ranking>,
     /// Why claims have no reference, if there are such claims.
@@ -98,12 +135,17 @@ pub fn publish(
 ) -> Result<Published, CaseError> {
     let results = folder.parent().unwrap_or(folder);
     let references = References::gather(&runs, &Library::of_results(results));
-    let judged = judge_runs(&runs, &references);
+    let (judged, convergence) = match &kind {
+        Kind::Convergence { over } => judge_levels(&runs, over, &references),
+        Kind::Comparison | Kind::Ablation => (judge_runs(&runs, &references), None),
+    };
     for run in &runs {
-        save_rows(folder, &run.manifest, &judged.rows)?;
+        let own = judged.rows.iter().filter(|row| kind.owns(run, row));
+        save_rows(folder, &run.manifest, &own.collect::<Vec<_>>())?;
     }
+    let names: Vec<String> = runs.iter().map(|run| kind.name(run)).collect();
     let file = StudyFile {
-        kind,
+        kind: kind.clone(),
         command: command.to_owned(),
         runs: runs.iter().map(|run| run.manifest.folder()).collect(),
     };
@@ -123,7 +165,10 @@ pub fn publish(
         write_file(&folder.join(name), made.as_bytes())?;
     }
     let ranking = rank(&judged.rows);
-    let gallery = pictures::draw(&runs, kind, &ranking, &references);
+    let gallery = match &convergence {
+        Some(convergence) => pictures::draw_convergence(convergence),
+        None => pictures::draw(&runs, &kind, &ranking, &references),
+    };
     let mut notes = judged.notes;
     notes.extend(gallery.notes);
     let mut figures = Vec::new();
@@ -136,12 +181,16 @@ pub fn publish(
             Err(error) => return Err(error),
         }
     }
-    let ranked = ranking.methods.iter().any(|method| method.echo.is_some());
+    // Levels of one method are not ranked.
+    let ranked =
+        convergence.is_none() && ranking.methods.iter().any(|method| method.echo.is_some());
     let ranking = ranked.then_some(ranking);
     let report = folder.join("report.html");
     if let Some(study) = describe(
         &runs,
+        &names,
         &judged.rows,
+        convergence.clone(),
         ranking.clone(),
         figures,
         &notes,
@@ -152,6 +201,8 @@ pub fn publish(
     Ok(Published {
         runs,
         rows: judged.rows,
+        convergence,
+        names,
         ranking,
         reference_missing: judged.reference_missing,
         notes,
@@ -162,7 +213,9 @@ pub fn publish(
 /// The report's content; none without runs.
 fn describe(
     runs: &[Run],
+    names: &[String],
     rows: &[Row],
+    convergence: Option<Convergence>,
     ranking: Option<Ranking>,
     figures: Vec<Figure>,
     notes: &[String],
@@ -177,11 +230,13 @@ fn describe(
         profile: first.manifest.profile.clone(),
         command: command.to_owned(),
         rows: rows.to_vec(),
+        convergence,
         ranking,
         runs: runs
             .iter()
-            .map(|run| RunSummary {
-                method: run.manifest.method.clone(),
+            .zip(names)
+            .map(|(run, name)| RunSummary {
+                method: name.clone(),
                 status: run.record.status.clone(),
                 cost: run.record.cost.clone(),
                 provenance: run.manifest.provenance.clone(),

@@ -10,12 +10,14 @@
 //! - [`judge`](mod@judge): from measurements and claims to rows with verdicts.
 //! - [`row`]: the flat rows that everything ends in.
 //! - [`ranking`]: methods by their echo, cost beside it, down to the floor of the reference.
+//! - [`convergence`]: errors on several levels, and the orders they fall with.
 //! - [`table`], [`export`]: rows for the terminal and for other programs.
 //! - [`plot`]: pictures as SVG and PNG, one file a kind.
 //! - [`study`]: everything that a report shows, as data; [`provenance`]: where a result comes from.
 //! - [`html`]: the report as one self-contained page.
 //! - [`format`](mod@format): numbers as readers want them.
 
+pub mod convergence;
 pub mod export;
 pub mod format;
 pub mod html;

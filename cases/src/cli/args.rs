@@ -13,6 +13,7 @@ Examples:
   anechoic show compression-1d --toml > my.toml       edit it, then:
   anechoic run my.toml
   anechoic ablation point-source                      what each part of a method absorbs
+  anechoic converge lamb --over grid.h_m=20,10        the order with which errors fall
   anechoic report results                             rebuild the report from records
 
 Exit codes: 0 pass, 1 a claim failed, 2 usage or input (an output folder that cannot be
@@ -25,6 +26,12 @@ Examples:
   anechoic compare compression-1d --set dashpot.impedance=0.5 --filter dashpot
   anechoic run my.toml --format json > rows.json
   anechoic run compression-1d --method damping-layer --dry-run";
+
+const CONVERGE_EXAMPLES: &str = "\
+Examples:
+  anechoic converge lamb --over grid.h_m=20,10,5
+  anechoic converge compression-1d --over grid.h_m=4,2,1,0.5 --set source.wavelet=sine-squared
+  anechoic converge compression-1d --over pml.thickness_m=40,20,10 --method pml";
 
 /// Measures how much echo boundary methods leave in particle geomechanics.
 #[derive(Debug, Parser)]
@@ -67,6 +74,9 @@ pub enum Command {
     Compare(SolveArgs),
     /// Take a method apart: solve its variants and judge what each part absorbs.
     Ablation(WorkArgs),
+    /// Refine a scene with one method: errors on all levels, and the order they fall with.
+    #[command(after_help = CONVERGE_EXAMPLES)]
+    Converge(ConvergeArgs),
     /// Compute a scene's certified reference and its floor, and store it.
     ///
     /// Its floor is how much it changes under a larger buffer and a tenth of the solver's tolerance:
@@ -139,6 +149,29 @@ impl SolveArgs {
     pub fn options(&self) -> Options {
         Options {
             methods: self.method.clone(),
+            ..self.work.options()
+        }
+    }
+}
+
+/// Which scene, which method, which levels.
+#[derive(Debug, Args)]
+pub struct ConvergeArgs {
+    /// The number to refine and its values: a field, or a method's parameter.
+    #[arg(long, value_name = "FIELD=VALUE,VALUE,...")]
+    pub over: String,
+    /// Boundary method, as a preset over sides [default: the scene's sides].
+    #[arg(long)]
+    method: Option<String>,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+impl ConvergeArgs {
+    /// The options, with the command as typed.
+    pub fn options(&self) -> Options {
+        Options {
+            methods: self.method.iter().cloned().collect(),
             ..self.work.options()
         }
     }

@@ -12,7 +12,7 @@ use crate::store;
 use anechoic_reports::export::summary_json;
 use anechoic_reports::format;
 use anechoic_reports::judge::Tally;
-use anechoic_reports::table::{measurement_table, ranking_table, verdict_table};
+use anechoic_reports::table::{convergence_table, measurement_table, ranking_table, verdict_table};
 use anechoic_solver::Bill;
 use anechoic_solver::boundary::METHODS;
 use anechoic_solver::problem::{PointMode, Problem, Transfer};
@@ -223,7 +223,7 @@ fn reference(case: &str, problem: &Problem<2>) -> Result<String, CaseError> {
 /// What would be solved, and where it would go.
 pub fn plan(plan: &Plan, out: &Path, format: Format) -> Result<String, CaseError> {
     let folder = |scene: &Prepared| {
-        let folder = out.join(scene.info.name).join(&scene.method);
+        let folder = out.join(plan.folder()).join(&scene.method);
         folder.join(scene.hash()).display().to_string()
     };
     if format == Format::Json {
@@ -315,8 +315,9 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
             "{} pass, {} fail, {} not evaluated\n",
             tally.pass, tally.fail, tally.not_evaluated
         );
-        match &finished.study.ranking {
-            Some(ranking) if finished.study.runs.len() > 1 => text += &ranking_table(ranking),
+        match (&finished.study.convergence, &finished.study.ranking) {
+            (Some(convergence), _) => text += &convergence_table(convergence),
+            (_, Some(ranking)) if finished.study.runs.len() > 1 => text += &ranking_table(ranking),
             _ => text += &measurement_table(&finished.rows),
         }
         let _ = writeln!(text, "\nreport: {}", finished.study.report.display());
@@ -327,17 +328,13 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
 /// What is missing from the results, for stderr: runs that did not end, references, pictures.
 pub fn missing(finished: &Finished) -> String {
     let mut text = String::new();
-    for run in &finished.study.runs {
+    for (run, name) in finished.study.runs.iter().zip(&finished.study.names) {
         let how = match &run.record.status {
             Status::Complete => continue,
             Status::Cancelled => "stopped before its end".to_owned(),
             Status::Failed(error) => format!("failed: {error}"),
         };
-        let _ = writeln!(
-            text,
-            "{}: {how}; what stands is stored",
-            run.manifest.method
-        );
+        let _ = writeln!(text, "{name}: {how}; what stands is stored");
     }
     for note in &finished.study.notes {
         let _ = writeln!(text, "note: {note}");

@@ -7,10 +7,11 @@ use crate::certified::library::Library;
 use crate::certified::solve::{compute, difference, measure_floor};
 use crate::error::{CaseError, exit};
 use crate::filter::Filter;
+use crate::over::Over;
 use crate::prepare::{Prepared, Request, Target};
 use crate::runner::run_all;
 use crate::store::Store;
-use crate::study::{Kind, Published, find_studies, publish};
+use crate::study::{Published, find_studies, publish};
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::Status;
@@ -142,7 +143,7 @@ pub fn plan_compare(options: &Options) -> Result<Plan, CaseError> {
 /// # Errors
 /// Whatever is wrong with the request, found before the solve; [`CaseError::Storage`] after it.
 pub fn run(options: &Options) -> Result<Finished, CaseError> {
-    execute(Plan::run(options)?, Kind::Comparison, options)
+    execute(Plan::run(options)?, options)
 }
 
 /// Solves one scene with all methods that apply, judges and ranks them.
@@ -150,7 +151,7 @@ pub fn run(options: &Options) -> Result<Finished, CaseError> {
 /// # Errors
 /// As [`run`]. A method whose solver fails is no error: it is a run that failed.
 pub fn compare(options: &Options) -> Result<Finished, CaseError> {
-    execute(Plan::compare(options)?, Kind::Comparison, options)
+    execute(Plan::compare(options)?, options)
 }
 
 /// What `ablation` would do.
@@ -166,7 +167,24 @@ pub fn plan_ablation(options: &Options) -> Result<Plan, CaseError> {
 /// # Errors
 /// As [`run`].
 pub fn ablation(options: &Options) -> Result<Finished, CaseError> {
-    execute(Plan::ablation(options)?, Kind::Ablation, options)
+    execute(Plan::ablation(options)?, options)
+}
+
+/// What `converge` would do.
+///
+/// # Errors
+/// Whatever is wrong with the request.
+pub fn plan_converge(options: &Options, over: &Over) -> Result<Plan, CaseError> {
+    Plan::converge(options, over)
+}
+
+/// Solves one scene with one method on all levels of a refinement, and judges the orders with which
+/// its errors fall.
+///
+/// # Errors
+/// As [`run`].
+pub fn converge(options: &Options, over: &Over) -> Result<Finished, CaseError> {
+    execute(Plan::converge(options, over)?, options)
 }
 
 /// A certified reference that was computed.
@@ -221,12 +239,12 @@ pub fn report(folder: &Path, filter: Option<&str>) -> Result<Vec<Finished>, Case
         .collect()
 }
 
-fn execute(plan: Plan, kind: Kind, options: &Options) -> Result<Finished, CaseError> {
-    let store = Store::open(&options.out, &kind.folder(plan.case()))?;
+fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
+    let store = Store::open(&options.out, &plan.folder())?;
     provide_references(&plan, &Library::of_results(&options.out))?;
     let runs = run_all(plan.scenes, options.jobs, &store)?;
     Finished::new(
-        publish(store.folder(), runs, kind, &options.command)?,
+        publish(store.folder(), runs, plan.kind, &options.command)?,
         plan.filter.as_ref(),
     )
 }

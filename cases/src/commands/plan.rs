@@ -1,18 +1,24 @@
 //! Which scenes a command solves.
 
+mod levels;
+
 use super::Options;
 use crate::error::{CaseError, Complaint};
 use crate::filter::Filter;
 use crate::judge::CERTIFIER;
+use crate::over::Over;
 use crate::prepare::{Prepared, Target};
 use crate::scene::SceneInfo;
 use crate::scenes::SCENES;
+use crate::study::Kind;
 use anechoic_reference::claim::Evidence;
 use anechoic_reports::norms::{group_of, group_worst};
 
 /// Scenes ready to run.
 #[derive(Debug)]
 pub struct Plan {
+    /// What they are solved for.
+    pub kind: Kind,
     /// The scenes, in the order of the comparison.
     pub scenes: Vec<Prepared>,
     /// Which rows are asked for.
@@ -40,6 +46,7 @@ impl Plan {
             filter.methods(&[&scene.method], &places(&scene))?;
         }
         Ok(Plan {
+            kind: Kind::Comparison,
             scenes: vec![scene],
             filter,
             left_out: Vec::new(),
@@ -120,6 +127,7 @@ impl Plan {
         }
         refuse_unused(&unused_everywhere(&scenes))?;
         Ok(Plan {
+            kind: Kind::Comparison,
             scenes,
             filter,
             left_out,
@@ -150,15 +158,55 @@ impl Plan {
             .collect::<Result<Vec<_>, _>>()?;
         refuse_unused(&unused_everywhere(&scenes))?;
         Ok(Plan {
+            kind: Kind::Ablation,
             scenes,
             filter,
             left_out: Vec::new(),
         })
     }
 
-    /// The case.
-    pub fn case(&self) -> &'static str {
-        self.scenes.first().map_or("", |scene| scene.info.name)
+    /// One scene on all levels of a refinement, coarse to fine.
+    pub(super) fn converge(options: &Options, over: &Over) -> Result<Self, CaseError> {
+        let method = match options.methods.as_slice() {
+            [] => None,
+            [one] => Some(one.as_str()),
+            _ => {
+                return Err(CaseError::Usage(
+                    "converge takes one --method; refine others one by one".into(),
+                ));
+            }
+        };
+        let level = |assignment: String| {
+            let mut request = options.request.clone();
+            request.sets.push(assignment);
+            let scene = Target::find(&request)?.prepare(method)?;
+            refuse_unused(&scene.unused)?;
+            Ok(scene)
+        };
+        let scenes: Vec<Prepared> = over
+            .assignments()
+            .into_iter()
+            .map(level)
+            .collect::<Result<_, CaseError>>()?;
+        levels::check(&scenes, over)?;
+        let filter = options.filter.clone().map(Filter);
+        if let (Some(filter), Some(finest)) = (&filter, scenes.last()) {
+            filter.methods(&[&finest.method], &levels::places(&places(finest), over))?;
+        }
+        Ok(Plan {
+            kind: Kind::Convergence {
+                over: over.field.clone(),
+            },
+            scenes,
+            filter,
+            left_out: Vec::new(),
+        })
+    }
+
+    /// Folder of the study in a results folder.
+    pub fn folder(&self) -> String {
+        let first = self.scenes.first();
+        self.kind.folder(first.map_or("", |scene| scene.info.name))
     }
 }
 

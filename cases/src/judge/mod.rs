@@ -2,14 +2,16 @@
 
 mod arrivals;
 mod certified;
+mod levels;
 mod papers;
 pub mod references;
 
 pub use certified::CERTIFIER;
+pub use levels::judge_levels;
 
 use crate::certified::Certified;
 use crate::runner::Run;
-use crate::scene::{Quantity, Reference, Role, Window};
+use crate::scene::{Quantity, Reference, Role, SceneClaim, Window};
 use anechoic_reference::claim::{Claim, Evidence};
 use anechoic_reports::judge::{Measurement, cost_measurements, judge, measurements};
 use anechoic_reports::norms::{
@@ -41,27 +43,12 @@ pub struct Judged {
 
 /// Judges runs of one study; ratios are taken over the run of the scene's standard method.
 pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
-    let extended = certified::certifier(runs);
     let mut judged = Judged::default();
-    for (index, run) in runs.iter().enumerate() {
-        let mut numbers = cost_measurements(&run.manifest.method, &run.record.cost);
-        let mut missing: Vec<String> = Vec::new();
-        let obstacle = match &run.record.status {
-            Status::Complete => {
-                missing.extend(certified::measure(run, extended, &mut numbers).err());
-                let standard = standard_of(run, runs);
-                measure(run, references, standard, index == 0, &mut numbers)
-            }
-            Status::Cancelled => Err("the run was stopped before its end".to_owned()),
-            Status::Failed(error) => Err(format!("the run failed: {error}")),
-        };
-        if let Err(reason) = &obstacle
-            && run.complete()
-        {
-            missing.push(reason.clone());
-        }
-        let rows = rows_of(run, &numbers, obstacle.err());
-        for reason in missing {
+    for run in runs {
+        let measured = measured(run, runs, references);
+        let claims = run.prepared.scene.claims();
+        let rows = rows_of(run, &measured.numbers, claims, measured.obstacle);
+        for reason in measured.missing {
             let concerns =
                 |row: &Row| row.verdict == Some(Verdict::NotEvaluated) && row.why == reason;
             judged
@@ -78,12 +65,52 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
     judged
 }
 
+/// What is measured of a run.
+struct Measured {
+    numbers: Vec<Measurement>,
+    /// Why claims cannot be judged: the run did not end, or has no reference.
+    obstacle: Option<String>,
+    /// References that are missing, and why.
+    missing: Vec<String>,
+}
+
+/// Everything that is measured of a run of a study.
+fn measured(run: &Run, runs: &[Run], references: &References) -> Measured {
+    let mut numbers = cost_measurements(&run.manifest.method, &run.record.cost);
+    let mut missing: Vec<String> = Vec::new();
+    let obstacle = match &run.record.status {
+        Status::Complete => {
+            let extended = certified::certifier(runs);
+            missing.extend(certified::measure(run, extended, &mut numbers).err());
+            let first = runs.first().is_some_and(|first| std::ptr::eq(first, run));
+            measure(run, references, standard_of(run, runs), first, &mut numbers)
+        }
+        Status::Cancelled => Err("the run was stopped before its end".to_owned()),
+        Status::Failed(error) => Err(format!("the run failed: {error}")),
+    };
+    if let Err(reason) = &obstacle
+        && run.complete()
+    {
+        missing.push(reason.clone());
+    }
+    Measured {
+        numbers,
+        obstacle: obstacle.err(),
+        missing,
+    }
+}
+
 /// The claims on this run's method, judged or with the reason why not, and all other numbers.
-fn rows_of(run: &Run, numbers: &[Measurement], obstacle: Option<String>) -> Vec<Row> {
+fn rows_of(
+    run: &Run,
+    numbers: &[Measurement],
+    claims: Vec<SceneClaim>,
+    obstacle: Option<String>,
+) -> Vec<Row> {
     let (case, profile) = (&run.manifest.case, &run.manifest.profile);
     let mut apply: Vec<Claim> = Vec::new();
     let mut reasons: Vec<(Claim, String)> = Vec::new();
-    for claim in run.prepared.scene.claims() {
+    for claim in claims {
         if claim.claim.method != run.manifest.method {
             continue;
         }

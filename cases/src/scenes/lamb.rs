@@ -20,6 +20,7 @@
 //!   together.
 //! - Extended sides get as much material as this source needs until the end of the run.
 
+mod claims;
 mod exact;
 mod values;
 
@@ -28,7 +29,6 @@ use crate::checks::Checks;
 use crate::half_space::{Source, TARGET_AND_SOURCE, TargetSpec};
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
-use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::Probes;
 use anechoic_solver::problem::{BasisKind, Problem, Scheme};
 use serde::{Deserialize, Serialize};
@@ -91,15 +91,9 @@ const STEP_PER_METRE: f64 = 0.0005;
 const ENERGIES: f64 = 200.0;
 
 impl Lamb {
-    /// Longest edge of the cells in use (m).
-    fn cell(&self) -> f64 {
-        let edges = fitted_cell(&self.target.body(), self.grid.h_m);
-        edges[0].max(edges[1])
-    }
-
     /// Time step (s).
     fn dt(&self) -> f64 {
-        self.time.dt_s.unwrap_or(STEP_PER_METRE * self.cell())
+        self.time.dt_s.unwrap_or(STEP_PER_METRE * self.cell_m())
     }
 }
 
@@ -191,7 +185,15 @@ impl Scene for Lamb {
     }
 
     fn claims(&self) -> Vec<SceneClaim> {
-        exact::claims(self)
+        claims::claims(self)
+    }
+
+    fn cell_m(&self) -> f64 {
+        self.grid.cell_m(&self.target.body())
+    }
+
+    fn orders(&self, sizes: &[f64]) -> Vec<SceneClaim> {
+        claims::orders(self, sizes)
     }
 
     fn serves_until_s(&self) -> Option<f64> {

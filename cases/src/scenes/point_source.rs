@@ -74,12 +74,7 @@ pub static INFO: SceneInfo = SceneInfo {
     title: "a force on an elastic half-space: the echo of a mesh's edges",
     summary: "A short force on the surface of a half-space sends out compressional, shear and surface waves. The mesh ends somewhere, and whatever comes back from there is the boundary method's doing. The reference is the same scheme on a mesh so large that nothing can come back in time.",
     source: "K25, sections 2 and 3.1 (doi 10.1016/j.soildyn.2025.109219)",
-    fields: &[
-        NUMERICS,
-        TARGET_AND_SOURCE,
-        ELASTIC,
-        PROBES_AND_SIDES,
-    ],
+    fields: &[NUMERICS, TARGET_AND_SOURCE, ELASTIC, PROBES_AND_SIDES],
     profiles: values::PROFILES,
     presets: values::PRESETS,
     methods: methods::METHODS,
@@ -190,5 +185,9 @@ impl Scene for PointSource {
 
     fn claims(&self) -> Vec<SceneClaim> {
         claims::claims(self)
+    }
+
+    fn cell_m(&self) -> f64 {
+        self.grid.cell_m(&self.target.body())
     }
 }

@@ -1,8 +1,8 @@
-//! What is true of the half-space, and what is claimed of the solver.
+//! What is true of the half-space at the receivers.
 
 use super::Lamb;
 use crate::half_space::Direction;
-use crate::scene::{Quantity, Reference, Role, Scene, SceneClaim};
+use crate::scene::{Quantity, Reference, Role, Scene};
 use crate::spec::ReceiverSpec;
 use anechoic_reference::analytic::elastic::Elastic;
 use anechoic_reference::analytic::lamb::{self, Response};
@@ -14,6 +14,29 @@ const NAME: &str = "lamb";
 
 /// A Ricker wavelet that starts with a larger share of its peak than this has a jump.
 const SILENT_START: f64 = 1e-6;
+
+/// How smooth a force is on its whole line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Smoothness {
+    /// For every purpose: a Ricker wavelet that starts in silence.
+    Smooth,
+    /// Its second derivative jumps: sin^2.
+    Bent,
+    /// Its first derivative jumps, or itself does: sine, half a sine, a Ricker wavelet cut at its start.
+    Kinked,
+}
+
+impl Smoothness {
+    pub(super) fn of(pulse: &Pulse) -> Self {
+        match pulse.wavelet {
+            Wavelet::Ricker if pulse.value(0.0).abs() <= SILENT_START * pulse.amplitude => {
+                Smoothness::Smooth
+            }
+            Wavelet::SineSquared => Smoothness::Bent,
+            Wavelet::Ricker | Wavelet::Sine | Wavelet::HalfSine => Smoothness::Kinked,
+        }
+    }
+}
 
 /// What the half-space does: it judges the method, and, as long as nothing can come back from an
 /// extended end, the solver.
@@ -81,18 +104,12 @@ fn motion(scene: &Lamb, receiver: &ReceiverSpec, times: &[f64]) -> Result<[Vec<f
     Ok([0, 1].map(|axis| series.iter().map(|u| u[axis]).collect()))
 }
 
-/// Longest panel (s) of the reference's quadrature: a quarter of a period where the force is smooth
-/// on its whole line. Panels that straddle a kink converge slowly, so that a force with kinks gets a
-/// twenty-fifth of a period.
+/// Longest panel (s) of the reference's quadrature: a quarter of a period where the force is smooth.
+/// Gauss points that straddle a kink converge slowly, so that a force with kinks gets a twenty-fifth.
 fn panel(pulse: &Pulse) -> f64 {
-    let smooth = match pulse.wavelet {
-        Wavelet::Ricker => pulse.value(0.0).abs() <= SILENT_START * pulse.amplitude,
-        Wavelet::Sine | Wavelet::HalfSine | Wavelet::SineSquared => false,
+    let share = match Smoothness::of(pulse) {
+        Smoothness::Smooth => 0.25,
+        Smoothness::Bent | Smoothness::Kinked => 0.04,
     };
-    (if smooth { 0.25 } else { 0.04 }) / pulse.frequency
-}
-
-/// The claims, for the scene as run.
-pub(super) fn claims(_scene: &Lamb) -> Vec<SceneClaim> {
-    Vec::new()
+    share / pulse.frequency
 }
