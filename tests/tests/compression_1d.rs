@@ -143,12 +143,12 @@ fn a_smooth_pulse_converges_with_second_order_and_a_kinked_one_with_first() {
 #[test]
 fn a_study_of_orders_is_made_again_from_records() {
     let out = folder();
-    let over = Over::parse("grid.h_m=4,2").expect("levels");
+    let over = Over::parse("grid.h_m=2,1").expect("levels");
     let options = narrow_column(out.path()).method("dashpot");
     let finished = converge(&options, &over).unwrap_or_else(|error| panic!("{error}"));
     // Two levels are too few for the claim, and enough for a number; between them it is the same.
     let order = |place: &str| value(&finished.rows, "dashpot", "order", place);
-    assert_eq!(order("A:rel_l2"), order("A:rel_l2@grid.h_m=4..2"));
+    assert!((order("A:rel_l2") - order("A:rel_l2@grid.h_m=2..1")).abs() < 1e-12);
     let error = |h: &str| {
         value(
             &finished.rows,
@@ -157,7 +157,7 @@ fn a_study_of_orders_is_made_again_from_records() {
             &format!("A@grid.h_m={h}"),
         )
     };
-    let by_hand = (error("4") / error("2")).ln() / (50.0f64 / 13.0 / 2.0).ln();
+    let by_hand = (error("2") / error("1")).log2();
     assert!((order("A:rel_l2") - by_hand).abs() < 1e-12);
     let again = report(out.path(), None).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(again[0].rows, finished.rows);

@@ -15,7 +15,9 @@ use anechoic_reports::convergence::{self, Curve};
 use anechoic_solver::problem::{PointMode, Transfer};
 use std::f64::consts::PI;
 
-/// Largest `peak_error` on cells of 5 m, at every receiver of the scene as it comes.
+/// Largest `peak_error` on cells of 5 m, at every receiver of the scene as it comes. The worst, R3 under
+/// the vertical force, has 4.9 % at a step of 0.00025 s per metre of cell and 5.6 % at twice that: the
+/// trapezoidal rule's own share falls from 0.9 to 0.2 %.
 const TARGET: f64 = 0.05;
 
 /// Cells (m) for which the target is stated, or smaller ones.
