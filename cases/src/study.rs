@@ -185,20 +185,7 @@ pub fn publish(
     let ranked =
         convergence.is_none() && ranking.methods.iter().any(|method| method.echo.is_some());
     let ranking = ranked.then_some(ranking);
-    let report = folder.join("report.html");
-    if let Some(study) = describe(
-        &runs,
-        &names,
-        &judged.rows,
-        convergence.clone(),
-        ranking.clone(),
-        figures,
-        &notes,
-        command,
-    ) {
-        write_file(&report, html::report(&study).as_bytes())?;
-    }
-    Ok(Published {
+    let published = Published {
         runs,
         rows: judged.rows,
         convergence,
@@ -206,22 +193,17 @@ pub fn publish(
         ranking,
         reference_missing: judged.reference_missing,
         notes,
-        report,
-    })
+        report: folder.join("report.html"),
+    };
+    if let Some(study) = describe(&published, figures, command) {
+        write_file(&published.report, html::report(&study).as_bytes())?;
+    }
+    Ok(published)
 }
 
 /// The report's content; none without runs.
-fn describe(
-    runs: &[Run],
-    names: &[String],
-    rows: &[Row],
-    convergence: Option<Convergence>,
-    ranking: Option<Ranking>,
-    figures: Vec<Figure>,
-    notes: &[String],
-    command: &str,
-) -> Option<reports::Study> {
-    let first = runs.first()?;
+fn describe(published: &Published, figures: Vec<Figure>, command: &str) -> Option<reports::Study> {
+    let first = published.runs.first()?;
     let info = first.prepared.info;
     Some(reports::Study {
         case: info.name.to_owned(),
@@ -229,12 +211,13 @@ fn describe(
         summary: format!("{} {}", info.summary, info.source),
         profile: first.manifest.profile.clone(),
         command: command.to_owned(),
-        rows: rows.to_vec(),
-        convergence,
-        ranking,
-        runs: runs
+        rows: published.rows.clone(),
+        convergence: published.convergence.clone(),
+        ranking: published.ranking.clone(),
+        runs: published
+            .runs
             .iter()
-            .zip(names)
+            .zip(&published.names)
             .map(|(run, name)| RunSummary {
                 method: name.clone(),
                 status: run.record.status.clone(),
@@ -251,7 +234,7 @@ fn describe(
                 note: (*note).to_owned(),
             })
             .collect(),
-        notes: notes.to_vec(),
+        notes: published.notes.clone(),
         figures,
     })
 }

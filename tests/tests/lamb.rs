@@ -236,6 +236,11 @@ fn what_lamb_does_not_solve_is_refused_by_name() {
             "source.y_m: -10 m is not on the surface",
         ),
         ("y_m = -70.0", "y_m = 0.0", "receiver below is at the force"),
+        (
+            "\"half-sine\"",
+            "\"ricker\"\nt0_s = 0.1",
+            "source.t0_s: the wavelet starts with a jump",
+        ),
         ("end_s = 0.6", "end_s = 0.05", "the pulse lasts 0.1 s"),
     ] {
         let error = mine(&[(from, to)]).expect_err("refused");

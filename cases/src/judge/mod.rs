@@ -5,9 +5,11 @@ mod certified;
 mod levels;
 mod papers;
 pub mod references;
+mod series;
 
 pub use certified::CERTIFIER;
 pub use levels::judge_levels;
+pub use series::{traces, traces_of};
 
 use crate::certified::Certified;
 use crate::runner::Run;
@@ -21,8 +23,9 @@ use anechoic_reports::norms::{
 };
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::problem::Problem;
-use anechoic_solver::record::{Record, Status};
+use anechoic_solver::record::Status;
 use references::{References, standard_of};
+use series::cut;
 
 /// The method's name in rows that give the reference's own value.
 pub const REFERENCE: &str = "reference";
@@ -382,50 +385,4 @@ impl Subject<'_> {
             against: Some((self.reference.evidence, self.reference.name.to_owned())),
         }
     }
-}
-
-/// The recorded motion.
-pub fn traces(record: &Record, quantity: Quantity) -> Result<Traces, NormError> {
-    let letter = quantity.letter();
-    let suffixes = [format!("{letter}x"), format!("{letter}y")];
-    Traces::from_table(&record.receivers, &[&suffixes[0], &suffixes[1]])
-}
-
-/// The true motion at the record's times.
-pub fn traces_of(reference: &Reference, record: &Record) -> Result<Traces, NormError> {
-    let receivers = reference
-        .receivers
-        .iter()
-        .map(|(name, components)| Trace {
-            name: name.clone(),
-            components: components.to_vec(),
-        })
-        .collect();
-    Traces::new(record.receivers.times.clone(), receivers)
-}
-
-/// The receiver of a window alone, up to the window's end.
-fn cut(traces: &Traces, window: &Window) -> Result<Traces, NormError> {
-    let end = window.to_s.map_or(traces.times().len(), |to| {
-        traces.times().partition_point(|t| *t <= to)
-    });
-    let receiver = traces
-        .receivers()
-        .iter()
-        .find(|trace| trace.name == window.receiver)
-        .ok_or_else(|| NormError::MissingReceiver {
-            receiver: window.receiver.clone(),
-            from: "the record",
-        })?;
-    Traces::new(
-        traces.times()[..end].to_vec(),
-        vec![Trace {
-            name: receiver.name.clone(),
-            components: receiver
-                .components
-                .iter()
-                .map(|values| values[..end].to_vec())
-                .collect(),
-        }],
-    )
 }

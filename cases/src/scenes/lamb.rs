@@ -31,6 +31,7 @@ use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
 use anechoic_solver::probe::Probes;
 use anechoic_solver::problem::{BasisKind, Problem, Scheme};
+use anechoic_solver::wavelet::Wavelet;
 use serde::{Deserialize, Serialize};
 
 /// The scene; `Default` holds its own values.
@@ -141,6 +142,15 @@ impl Scene for Lamb {
             format!(
                 "{} m is not on the surface, where Lamb's force acts; allowed: 0",
                 self.source.y_m
+            )
+        });
+        let start = self.source.pulse().value(0.0).abs() / self.source.amplitude;
+        let ricker = self.source.wavelet == Wavelet::Ricker;
+        checks.require(!ricker || start <= exact::LARGEST_START, "source.t0_s", || {
+            format!(
+                "the wavelet starts with a jump of {start:.1e} of its peak, under which the surface has no limit; allowed: so late that it is at most {:e}, for example {:.2} s",
+                exact::LARGEST_START,
+                1.25 / self.source.frequency
             )
         });
         for (index, receiver) in self.receivers.iter().enumerate() {

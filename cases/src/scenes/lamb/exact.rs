@@ -15,6 +15,10 @@ const NAME: &str = "lamb";
 /// A Ricker wavelet that starts with a larger share of its peak than this has a jump.
 const SILENT_START: f64 = 1e-6;
 
+/// One that starts with more than this is refused: where a jump passes, the surface's displacement has
+/// no limit, and neither quadrature nor mesh has a value for it.
+pub(super) const LARGEST_START: f64 = 1e-3;
+
 /// How smooth a force is on its whole line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Smoothness {
@@ -22,7 +26,8 @@ pub(super) enum Smoothness {
     Smooth,
     /// Its second derivative jumps: sin^2.
     Bent,
-    /// Its first derivative jumps, or itself does: sine, half a sine, a Ricker wavelet cut at its start.
+    /// Its first derivative jumps: sine, half a sine; or itself does a little: a Ricker wavelet that is
+    /// cut at its start.
     Kinked,
 }
 
@@ -56,7 +61,7 @@ pub(super) fn references(scene: &Lamb, times: &[f64]) -> Result<Vec<Reference>, 
             .receivers
             .iter()
             .map(|receiver| {
-                let motion = motion(scene, receiver, times)
+                let motion = motion(scene, receiver, times, panel(&scene.source.pulse()))
                     .map_err(|reason| format!("receiver {}: {reason}", receiver.name))?;
                 Ok((receiver.name.clone(), motion))
             })
@@ -84,8 +89,13 @@ fn is_half_space(scene: &Lamb) -> bool {
             .is_some_and(|until| scene.time.end_s <= until)
 }
 
-/// Displacement (m) of a receiver, x and y.
-fn motion(scene: &Lamb, receiver: &ReceiverSpec, times: &[f64]) -> Result<[Vec<f64>; 2], String> {
+/// Displacement (m) of a receiver, x and y, by panels (s) of the quadrature.
+fn motion(
+    scene: &Lamb,
+    receiver: &ReceiverSpec,
+    times: &[f64],
+    panel: f64,
+) -> Result<[Vec<f64>; 2], String> {
     let material = &scene.material;
     let material = Elastic::new(material.youngs_modulus, material.nu, material.rho_kg_m3)
         .map_err(|error| error.to_string())?;
@@ -98,18 +108,56 @@ fn motion(scene: &Lamb, receiver: &ReceiverSpec, times: &[f64]) -> Result<[Vec<f
     let offset = receiver.x_m - scene.source.x_m;
     // -0.0 at the surface is no depth below it.
     let depth = (-receiver.y_m).max(0.0);
-    let series = Response::new(&material, offset, depth, end, panel(&pulse))
+    let series = Response::new(&material, offset, depth, end, panel)
         .and_then(|response| response.series(direction, |t| pulse.value(t), times))
         .map_err(|error| error.to_string())?;
     Ok([0, 1].map(|axis| series.iter().map(|u| u[axis]).collect()))
 }
 
 /// Longest panel (s) of the reference's quadrature: a quarter of a period where the force is smooth.
-/// Gauss points that straddle a kink converge slowly, so that a force with kinks gets a twenty-fifth.
+/// Gauss points that straddle a kink converge slowly, so that a force with kinks gets a fiftieth.
 fn panel(pulse: &Pulse) -> f64 {
     let share = match Smoothness::of(pulse) {
         Smoothness::Smooth => 0.25,
-        Smoothness::Bent | Smoothness::Kinked => 0.04,
+        Smoothness::Bent | Smoothness::Kinked => 0.02,
     };
     share / pulse.frequency
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finer_panels_change_nothing_that_is_judged() {
+        let times: Vec<f64> = (0..=300).map(|i| 0.01 * f64::from(i)).collect();
+        for (wavelet, t0_s, allowed) in [
+            (Wavelet::Ricker, 0.5, 1e-7),
+            (Wavelet::Ricker, 0.34, 1e-3),
+            (Wavelet::SineSquared, 0.5, 1e-4),
+            (Wavelet::Sine, 0.5, 1e-3),
+            (Wavelet::HalfSine, 0.5, 1e-3),
+        ] {
+            let mut scene = Lamb::default();
+            (scene.source.wavelet, scene.source.t0_s) = (wavelet, t0_s);
+            let panel = panel(&scene.source.pulse());
+            for receiver in &scene.receivers {
+                let by = |panel| motion(&scene, receiver, &times, panel).unwrap();
+                let (used, fine) = (by(panel), by(0.25 * panel));
+                let vector = |u: &[Vec<f64>; 2], i: usize| [u[0][i], u[1][i]];
+                let (mut peak, mut change) = (0.0_f64, 0.0_f64);
+                for i in 0..times.len() {
+                    let ([x, y], [fine_x, fine_y]) = (vector(&used, i), vector(&fine, i));
+                    peak = peak.max(fine_x.hypot(fine_y));
+                    change = change.max((x - fine_x).hypot(y - fine_y));
+                }
+                let name = &receiver.name;
+                assert!(
+                    change < allowed * peak,
+                    "{wavelet:?}, t0 = {t0_s} s, {name}: {:e}",
+                    change / peak
+                );
+            }
+        }
+    }
 }
