@@ -16,6 +16,7 @@ const METRICS: &[&str] = &[
     "goodness",
     "peak_deviation",
     "arrival_s",
+    "order",
     "energy_left",
     "growth_rate_per_s",
     "serves_until_s",

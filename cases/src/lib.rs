@@ -1,7 +1,7 @@
 //! The case runner: scenes as data, runs, records on disk, judgement, the command line.
 //!
 //! - [`scenes`]: the benchmarks, one file each; [`scene`] says what a benchmark is.
-//! - [`spec`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
+//! - [`spec`], [`half_space`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
 //! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
 //! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
 //! - [`frames`]: fields over time on request.
@@ -9,6 +9,7 @@
 //!   back instead of solved; [`foreign`]: series of other programs.
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
+//! - [`over`]: levels of convergence studies.
 //! - [`commands`], [`cli`]: the program.
 
 pub mod certified;
@@ -21,7 +22,9 @@ pub mod field;
 pub mod filter;
 pub mod foreign;
 pub mod frames;
+pub mod half_space;
 pub mod judge;
+pub mod over;
 pub mod pictures;
 pub mod prepare;
 pub mod progress;

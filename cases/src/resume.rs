@@ -109,8 +109,8 @@ pub fn folder(scene: &Prepared) -> PathBuf {
 pub struct Todo {
     /// Runs to solve and runs that were read back, in their order.
     pub tasks: Vec<Task>,
-    /// Methods that are left out, and why.
-    pub left_out: Vec<(String, String)>,
+    /// Scenes that are left out, and why.
+    pub left_out: Vec<(Prepared, String)>,
 }
 
 /// What there is to do for some scenes.
@@ -127,7 +127,7 @@ pub fn tasks(scenes: Vec<Prepared>, study: &Path, options: &Options) -> Result<T
                 prepared: scene,
                 ..*run
             }))),
-            Decision::Leave(why) => todo.left_out.push((scene.method, why)),
+            Decision::Leave(why) => todo.left_out.push((scene, why)),
         }
     }
     if todo.tasks.is_empty() {

@@ -49,6 +49,16 @@ pub trait Scene: Debug + Send + Sync {
     /// What is claimed of the methods.
     fn claims(&self) -> Vec<SceneClaim>;
 
+    /// Edge (m) of the cells in use, by which errors are said to fall.
+    fn cell_m(&self) -> f64;
+
+    /// What is claimed of the orders with which errors fall when cells of these `sizes` (m), coarse
+    /// to fine, are run; asked of the finest. A claim's place is that of
+    /// [`anechoic_reports::convergence::Curve::order_place`].
+    fn orders(&self, _sizes: &[f64]) -> Vec<SceneClaim> {
+        Vec::new()
+    }
+
     /// Until when (s) no wave can have come back from the outer end of an extended domain, so that
     /// the record of this scene certifies others; `None` when it has no such domain.
     fn serves_until_s(&self) -> Option<f64> {

@@ -2,6 +2,7 @@
 
 use crate::field::{Field, Kind, Range};
 use anechoic_solver::boundary::SideMethod;
+use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::{LineProbe, Receiver};
 use anechoic_solver::problem::{Aabb, Elastic, PointMode, Scheme, SolverKind, Transfer};
 use serde::{Deserialize, Serialize};
@@ -11,6 +12,14 @@ use serde::{Deserialize, Serialize};
 pub struct GridSpec {
     /// Largest edge of a cell (m); cells are made to fit the body.
     pub h_m: f64,
+}
+
+impl GridSpec {
+    /// Longest edge (m) of the cells that fit a body.
+    pub fn cell_m(&self, body: &Aabb<2>) -> f64 {
+        let [width, height] = fitted_cell(body, self.h_m);
+        width.max(height)
+    }
 }
 
 /// A rectangular body with its lower left corner at the origin.

@@ -1,17 +1,19 @@
 //! A study: runs that are judged and shown together. Everything here is made from records alone, so
 //! that `report` makes the same again without solving.
 //!
-//! - [`stored`]: studies on disk.
+//! - [`kind`]: what studies are for; [`stored`]: studies on disk.
 
+pub mod kind;
 pub mod stored;
 
 use crate::certified::library::Library;
 use crate::error::CaseError;
 use crate::judge::references::References;
-use crate::judge::{Judged, PAPER, REFERENCE, judge_runs, rows_unread};
+use crate::judge::{Judged, PAPER, REFERENCE, judge_levels, judge_runs, rows_unread};
 use crate::pictures::{self, Picture, animation};
 use crate::runner::Run;
 use crate::store::{save_rows, write_file};
+use anechoic_reports::convergence::Convergence;
 use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
 use anechoic_reports::html;
 use anechoic_reports::plot::PlotError;
@@ -20,7 +22,7 @@ use anechoic_reports::ranking::{Floor, Ranking};
 use anechoic_reports::row::Row;
 use anechoic_reports::study::{self as reports, Figure, LedgerEntry, RunSummary};
 use anechoic_solver::record::Status;
-use serde::{Deserialize, Serialize};
+pub use kind::Kind;
 use std::path::{Path, PathBuf};
 use stored::{Damage, Study};
 
@@ -29,27 +31,6 @@ const RANKED_BY: &str = "echo_ratio";
 
 /// Name of the animation's file.
 pub const ANIMATION: &str = "animation.gif";
-
-/// What a study is for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// Methods side by side, ranked.
-    #[default]
-    Comparison,
-    /// A method taken apart: what each part absorbs.
-    Ablation,
-}
-
-impl Kind {
-    /// Folder of a case's study of this kind.
-    pub fn folder(self, case: &str) -> String {
-        match self {
-            Kind::Comparison => case.to_owned(),
-            Kind::Ablation => format!("{case}-ablation"),
-        }
-    }
-}
 
 /// A judged and published study.
 #[derive(Debug)]
@@ -60,6 +41,10 @@ pub struct Published {
     pub damaged: Vec<Damage>,
     /// All rows.
     pub rows: Vec<Row>,
+    /// Errors on several levels, where a scene was refined.
+    pub convergence: Option<Convergence>,
+    /// The runs' names, which tell them apart.
+    pub names: Vec<String>,
     /// Methods by their echo; `None` when no echo ratio was measured.
     pub ranking: Option<Ranking>,
     /// Why claims have no reference, if there are such claims.
@@ -80,10 +65,11 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
     let folder = study.folder.as_path();
     let results = folder.parent().unwrap_or(folder);
     let references = References::gather(&study.runs, &Library::of_results(results));
-    let mut judged = judge_runs(&study.runs, &references);
+    let (mut judged, convergence) = judge_study(&study, &references);
     take_in_damage(&study, &mut judged);
     for run in &study.runs {
-        save_rows(folder, &run.manifest, &judged.rows)?;
+        let own = judged.rows.iter().filter(|row| study.kind.owns(run, row));
+        save_rows(folder, &run.manifest, &own.collect::<Vec<_>>())?;
     }
     study.announce()?;
     let text = |what: &str, made: Result<String, _>| made.map_err(|e| failed(what, &e));
@@ -101,7 +87,10 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         write_file(&folder.join(name), made.as_bytes())?;
     }
     let ranking = rank(&judged.rows);
-    let gallery = pictures::draw(&study.runs, study.kind, &ranking, &references);
+    let gallery = match &convergence {
+        Some(convergence) => pictures::draw_convergence(convergence),
+        None => pictures::draw(&study.runs, &study.kind, &ranking, &references),
+    };
     let mut notes = judged.notes;
     notes.extend(gallery.notes);
     for run in &study.runs {
@@ -130,34 +119,53 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
             None
         }
     };
-    let ranked = ranking.methods.iter().any(|method| method.echo.is_some());
-    let ranking = ranked.then_some(ranking);
-    let report = folder.join("report.html");
-    if let Some(page) = describe(&study, &judged.rows, ranking.clone(), figures, &notes) {
-        write_file(&report, html::report(&page).as_bytes())?;
-    }
-    Ok(Published {
+    // Levels of one method are not ranked.
+    let ranked =
+        convergence.is_none() && ranking.methods.iter().any(|method| method.echo.is_some());
+    let published = Published {
+        names: study.runs.iter().map(|run| study.kind.name(run)).collect(),
+        report: folder.join("report.html"),
         runs: study.runs,
         damaged: study.damaged,
         rows: judged.rows,
-        ranking,
+        convergence,
+        ranking: ranked.then_some(ranking),
         reference_missing: judged.reference_missing,
         notes,
-        report,
         animation,
-    })
+    };
+    if let Some(page) = describe(&published, &study.kind, study.command, figures) {
+        write_file(&published.report, html::report(&page).as_bytes())?;
+    }
+    Ok(published)
+}
+
+/// The rows of the runs that can be read, and the errors on their levels.
+fn judge_study(study: &Study, references: &References) -> (Judged, Option<Convergence>) {
+    match &study.kind {
+        Kind::Convergence { over } => {
+            let lost = study.damaged.first().map(|damage| {
+                let name = study.kind.name_of_damage(damage);
+                format!("a level is missing: {name}: {}", damaged(damage))
+            });
+            judge_levels(&study.runs, over, references, lost)
+        }
+        Kind::Comparison | Kind::Ablation => (judge_runs(&study.runs, references), None),
+    }
 }
 
 /// The rows and notes of runs that cannot be read: what is claimed of them is not evaluated.
 fn take_in_damage(study: &Study, judged: &mut Judged) {
     for damage in &study.damaged {
-        let (method, why) = (damage.method(), damaged(damage));
-        // The runs of a study share their scene but for its sides, so that any knows the claims.
-        if let Some(like) = study.runs.first() {
-            judged.rows.extend(rows_unread(like, &method, &why));
+        let (name, why) = (study.kind.name_of_damage(damage), damaged(damage));
+        // Methods share their scene but for its sides, so that any knows the claims; levels have none.
+        if !matches!(study.kind, Kind::Convergence { .. })
+            && let Some(like) = study.runs.first()
+        {
+            judged.rows.extend(rows_unread(like, &name, &why));
         }
         judged.notes.push(format!(
-            "{method}: {why}; what made the study, with --resume, solves it again"
+            "{name}: {why}; what made the study, with --resume, solves it again"
         ));
     }
 }
@@ -168,27 +176,33 @@ fn damaged(damage: &Damage) -> String {
 
 /// The report's content; none without runs.
 fn describe(
-    study: &Study,
-    rows: &[Row],
-    ranking: Option<Ranking>,
+    published: &Published,
+    kind: &Kind,
+    command: String,
     figures: Vec<Figure>,
-    notes: &[String],
 ) -> Option<reports::Study> {
-    let first = study.runs.first()?;
+    let first = published.runs.first()?;
     let info = first.prepared.info;
     Some(reports::Study {
         case: info.name.to_owned(),
         title: info.title.to_owned(),
         summary: format!("{} {}", info.summary, info.source),
         profile: first.manifest.profile.clone(),
-        command: study.command.clone(),
-        rows: rows.to_vec(),
-        ranking,
-        runs: study
+        command,
+        rows: published.rows.clone(),
+        convergence: published.convergence.clone(),
+        ranking: published.ranking.clone(),
+        runs: published
             .runs
             .iter()
-            .map(summary_of_run)
-            .chain(study.damaged.iter().map(summary_of_damage))
+            .zip(&published.names)
+            .map(|(run, name)| summary_of_run(run, name))
+            .chain(
+                published
+                    .damaged
+                    .iter()
+                    .map(|damage| summary_of_damage(damage, kind)),
+            )
             .collect(),
         ledger: info
             .ledger
@@ -199,14 +213,14 @@ fn describe(
                 note: (*note).to_owned(),
             })
             .collect(),
-        notes: notes.to_vec(),
+        notes: published.notes.clone(),
         figures,
     })
 }
 
-fn summary_of_run(run: &Run) -> RunSummary {
+fn summary_of_run(run: &Run, name: &str) -> RunSummary {
     RunSummary {
-        method: run.manifest.method.clone(),
+        method: name.to_owned(),
         status: run.record.status.clone(),
         cost: match run.manifest.scored {
             Some(_) => None,
@@ -216,9 +230,9 @@ fn summary_of_run(run: &Run) -> RunSummary {
     }
 }
 
-fn summary_of_damage(damage: &Damage) -> RunSummary {
+fn summary_of_damage(damage: &Damage, kind: &Kind) -> RunSummary {
     RunSummary {
-        method: damage.method(),
+        method: kind.name_of_damage(damage),
         status: Status::Failed(damaged(damage)),
         cost: None,
         provenance: Provenance::default(),

@@ -10,6 +10,7 @@
 //! - [`judge`](mod@judge): from measurements and claims to rows with verdicts.
 //! - [`row`]: the flat rows that everything ends in.
 //! - [`ranking`]: methods by their echo, cost beside it, down to the floor of the reference.
+//! - [`convergence`]: errors on several levels, and the orders they fall with.
 //! - [`table`], [`export`]: rows for the terminal and for other programs.
 //! - [`diff`](mod@diff): what changed from one list of rows to another.
 //! - [`plot`]: pictures as SVG and PNG, one file a kind.
@@ -18,6 +19,7 @@
 //! - [`html`]: the report as one self-contained page.
 //! - [`format`](mod@format): numbers as readers want them.
 
+pub mod convergence;
 pub mod diff;
 pub mod export;
 pub mod fields;

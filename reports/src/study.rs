@@ -1,5 +1,6 @@
 //! Everything that a report shows, as data.
 
+use crate::convergence::Convergence;
 use crate::plot::{Drawing, PlotError};
 use crate::provenance::Provenance;
 use crate::ranking::Ranking;
@@ -24,6 +25,9 @@ pub struct Study {
     pub rows: Vec<Row>,
     /// The ranking, where methods were compared.
     pub ranking: Option<Ranking>,
+    /// Errors on several levels, where a scene was refined.
+    #[serde(default)]
+    pub convergence: Option<Convergence>,
     /// The runs, complete or not.
     pub runs: Vec<RunSummary>,
     /// What the case says about its source.

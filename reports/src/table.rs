@@ -1,5 +1,6 @@
 //! Aligned tables for the terminal.
 
+use crate::convergence::{Convergence, Curve};
 use crate::format;
 use crate::ranking::{Ranked, Ranking};
 use crate::row::{Row, Verdict};
@@ -101,6 +102,48 @@ pub fn ranking_cells(ranking: &Ranking, method: &Ranked) -> [String; 7] {
         text(method.unknowns, |v| format::count(v as usize)),
         text(method.peak_bytes, format::bytes),
     ]
+}
+
+/// Errors on all levels with the orders they fall with.
+pub fn convergence_table(convergence: &Convergence) -> String {
+    let head = convergence_head(convergence);
+    let mut table = new_table(&head.iter().map(String::as_str).collect::<Vec<_>>());
+    let last = head.len() - 1;
+    align_right(&mut table, &(2..=last).collect::<Vec<_>>());
+    for curve in &convergence.curves {
+        table.add_row(convergence_cells(curve));
+    }
+    finish(&table, "")
+}
+
+/// Head of the table of a convergence study.
+pub fn convergence_head(convergence: &Convergence) -> Vec<String> {
+    let mut head = vec!["metric".to_owned(), "where".to_owned()];
+    head.extend(convergence.labels());
+    head.extend(["order (95 %)", "between neighbours"].map(str::to_owned));
+    head
+}
+
+/// Cells of its line: metric, place, errors, order with its interval, orders between neighbours.
+pub fn convergence_cells(curve: &Curve) -> Vec<String> {
+    let mut cells = vec![curve.metric.clone(), curve.place.clone()];
+    cells.extend(curve.errors.iter().map(|error| match error {
+        Ok(error) => format::number(*error),
+        Err(_) => "–".to_owned(),
+    }));
+    match &curve.order {
+        Ok(order) => {
+            let fit = format!("{:.2}", order.fit.value);
+            cells.push(match order.fit.interval {
+                Some([low, high]) => format!("{fit} ({low:.2} to {high:.2})"),
+                None => fit,
+            });
+            let pairs: Vec<String> = order.pairwise.iter().map(|p| format!("{p:.2}")).collect();
+            cells.push(pairs.join(", "));
+        }
+        Err(reason) => cells.extend([reason.clone(), "–".to_owned()]),
+    }
+    cells
 }
 
 /// The verdict as rows spell it.

@@ -249,6 +249,7 @@ fn convergence() -> ConvergencePlot {
             series("sin² pulse", 0.01, 1.97),
             series("half sine", 0.03, 1.03),
         ],
+        refined: "cell size h (m)".to_owned(),
         slope: 2.0,
     }
 }

@@ -4,12 +4,14 @@
 //! With `ANECHOIC_PICTURES=DIR` in the environment the page is also written there, to look at.
 
 use anechoic_reference::claim::{Accept, Claim, Evidence};
+use anechoic_reports::convergence::{Convergence, Curve, Level};
 use anechoic_reports::html::report;
 use anechoic_reports::judge::{Measurement, cost_measurements, judge};
 use anechoic_reports::plot::{BarPlot, Bars, Line, SpaceTimePlot, TracePanel, TracePlot};
 use anechoic_reports::provenance::Provenance;
 use anechoic_reports::ranking::{Floor, Ranking};
 use anechoic_reports::study::{Figure, Finding, LedgerEntry, RunSummary, Study};
+use anechoic_reports::table::convergence_table;
 use anechoic_solver::record::{Cost, SpaceTime, Status};
 
 const METHODS: [(&str, f64, f64); 4] = [
@@ -204,6 +206,21 @@ fn figures() -> Vec<Figure> {
     ]
 }
 
+/// `rel_l2` of the column on three levels, the finest of which failed at B.
+fn convergence() -> Convergence {
+    let levels = [4.0, 2.0, 1.0].map(|value| Level { value, size: value });
+    let failed = Err("the run failed".to_owned());
+    Convergence {
+        over: "grid.h_m".to_owned(),
+        method: "fixed".to_owned(),
+        levels: levels.to_vec(),
+        curves: vec![
+            Curve::new("rel_l2", "A", &levels, vec![Ok(0.16), Ok(0.04), Ok(0.01)]),
+            Curve::new("rel_l2", "B", &levels, vec![Ok(0.16), Ok(0.04), failed]),
+        ],
+    }
+}
+
 fn study() -> Study {
     let rows = judge("compression-1d", "quick", &measurements(), &claims());
     let floor = Floor {
@@ -227,6 +244,7 @@ fn study() -> Study {
         command: "anechoic compare compression-1d --profile quick".to_owned(),
         ranking: Some(Ranking::from_rows(&rows, "echo_ratio", Some(floor))),
         rows,
+        convergence: Some(convergence()),
         runs,
         ledger: vec![
             LedgerEntry {
@@ -259,8 +277,8 @@ fn every_row_and_figure_is_on_the_page() {
         std::fs::write(format!("{folder}/report.html"), &page).expect("the folder exists");
     }
     let rows = page.matches("<tr").count();
-    // Header rows: verdicts twice, ranking, ledger, cost, provenance, measurements.
-    let expected = study.rows.len() + 4 + 3 + 2 * study.runs.len() + 7;
+    // Header rows: verdicts twice, ranking, convergence, ledger, cost, provenance, measurements.
+    let expected = study.rows.len() + 4 + 2 + 3 + 2 * study.runs.len() + 8;
     assert_eq!(rows, expected);
     assert_eq!(page.matches("<figure").count(), 3);
     assert_eq!(page.matches("<svg").count(), 2);
@@ -315,10 +333,27 @@ fn nothing_is_fetched() {
 }
 
 #[test]
+fn errors_stand_beside_their_order() {
+    let page = report(&study());
+    assert!(page.contains("grid.h_m=4") && page.contains("2.00, 2.00"));
+    let text = convergence_table(&convergence());
+    let line = |at: &str| {
+        let mut lines = text.lines();
+        lines
+            .find(|line| line.contains(&format!(" {at} ")))
+            .expect("a line")
+            .to_owned()
+    };
+    assert!(line("A").contains("0.160") && line("A").contains("2.00 (2.00 to 2.00)"));
+    assert!(line("B").contains("the run failed"), "{text}");
+}
+
+#[test]
 fn an_empty_study_claims_nothing() {
     let empty = Study {
         rows: vec![],
         ranking: None,
+        convergence: None,
         runs: vec![],
         ledger: vec![],
         notes: vec![],
@@ -337,6 +372,7 @@ fn a_study_survives_storage_but_for_its_pictures() {
     let back: Study = serde_json::from_str(&text).expect("our own output");
     assert_eq!(back.runs, study.runs);
     assert_eq!(back.ranking, study.ranking);
+    assert_eq!(back.convergence, study.convergence);
     assert_eq!(back.rows.len(), study.rows.len());
     assert!(back.figures.is_empty());
 }

@@ -304,3 +304,104 @@ fn a_reference_that_does_not_exist_ends_with_four() {
         output.out
     );
 }
+
+#[test]
+fn a_refinement_leaves_orders_pictures_and_rows_that_tell_levels_apart() {
+    let folder = folder();
+    let arguments = [
+        "converge",
+        CASE,
+        "--over",
+        "grid.h_m=0.5,2,1",
+        "--method",
+        "dashpot",
+    ];
+    let smooth = ["--set", "source.wavelet=sine-squared"];
+    let output = passes(folder.path(), &narrow(&[&arguments[..], &smooth].concat()));
+    // Coarse to fine, whatever was typed.
+    let head = output
+        .out
+        .lines()
+        .find(|line| line.contains("grid.h_m=2   "));
+    assert!(head.is_some_and(|head| head.contains("grid.h_m=2   grid.h_m=1   grid.h_m=0.5")));
+    let study = folder.path().join("results/compression-1d-converge");
+    for name in [
+        "report.html",
+        "convergence.svg",
+        "convergence-peak.png",
+        "junit.xml",
+    ] {
+        assert!(study.join(name).is_file(), "{name}");
+    }
+    let summary = rows(&read(&study.join("summary.json")));
+    let of = |metric: &str, place: &str| {
+        let mut found = summary
+            .iter()
+            .filter(|row| row["metric"] == metric && row["where"] == place);
+        let row = found
+            .next()
+            .unwrap_or_else(|| panic!("no {metric} at {place}"));
+        assert!(
+            found.next().is_none(),
+            "{metric} at {place} stands there twice"
+        );
+        row.clone()
+    };
+    for place in [
+        "A:rel_l2",
+        "A:rel_l2:low",
+        "A:rel_l2@grid.h_m=2..1",
+        "B:peak_error",
+    ] {
+        assert!(of("order", place)["value"].is_f64(), "{place}");
+    }
+    assert!(
+        of("rel_l2", "A@grid.h_m=2")["value"].as_f64()
+            > of("rel_l2", "A@grid.h_m=0.5")["value"].as_f64()
+    );
+    // Each run keeps its own level's rows.
+    let runs = std::fs::read_dir(study.join("dashpot")).expect("runs");
+    for run in runs {
+        let own = rows(&read(&run.expect("an entry").path().join("metrics.json")));
+        let places: Vec<&str> = own.iter().filter_map(|row| row["where"].as_str()).collect();
+        let level = places[0].split('@').nth(1).expect("a level");
+        assert!(
+            places.iter().all(|place| place.ends_with(level)),
+            "{places:?}"
+        );
+    }
+}
+
+#[test]
+fn an_order_out_of_its_bounds_ends_with_one_and_none_at_all_with_four() {
+    let folder = folder();
+    let code = |sets: &[&str]| {
+        let arguments = ["converge", CASE, "--over", "grid.h_m=2,1,0.5"];
+        anechoic(folder.path(), &narrow(&[&arguments[..], sets].concat())).code
+    };
+    // With a step of its own the error in time stays where it is.
+    let smooth = "source.wavelet=sine-squared";
+    assert_eq!(code(&["--set", smooth, "--set", "time.dt_s=0.04"]), 1);
+    assert_eq!(code(&[]), 4);
+}
+
+#[test]
+fn what_is_no_refinement_is_told_before_anything_is_solved() {
+    let folder = folder();
+    for (over, part) in [
+        ("grid.h_m=4", "two values at least"),
+        ("grid.h_m=4,two", "`two` is no positive number"),
+        ("grid.hm=4,2", "grid.h_m"),
+        (
+            "receivers.A.x_m=1,0.5",
+            "is no number that errors could fall with",
+        ),
+        ("grid.h_m=30,26", "the same cells of 25 m"),
+        ("pml.thickness_m=10,20", "no side uses that method"),
+    ] {
+        let output = anechoic(folder.path(), &["converge", CASE, "--over", over]);
+        assert_eq!(output.code, 2, "{over}: {}", output.out);
+        assert!(output.err.contains(part), "{over}: {}", output.err);
+    }
+    assert!(!folder.path().join("results").exists());
+}

@@ -201,3 +201,82 @@ fn a_study_of_which_nothing_can_be_read_is_named_and_others_are_shown() {
         "nothing is left to replace it by"
     );
 }
+
+#[test]
+fn a_level_of_a_refinement_is_named_its_order_not_judged_and_resume_solves_it_alone() {
+    let folder = folder();
+    let refine = |how: &[&str]| {
+        let arguments = [
+            "converge",
+            CASE,
+            "--over",
+            "grid.h_m=2,1,0.5",
+            "--method",
+            "dashpot",
+            "--set",
+            "source.wavelet=sine-squared",
+        ];
+        anechoic(folder.path(), &narrow(&[&arguments[..], how].concat()))
+    };
+    let study = folder.path().join("results/compression-1d-converge");
+    let summary = || {
+        let mut rows = rows(&read(&study.join("summary.json")));
+        let costs = ["cpu_s", "wall_s", "us_per_point_step"];
+        rows.retain(|row| !costs.iter().any(|cost| row["metric"] == *cost));
+        rows
+    };
+    let output = refine(&[]);
+    assert_eq!(output.code, 0, "{}{}", output.err, output.out);
+    let before = summary();
+    let mut levels: Vec<PathBuf> = std::fs::read_dir(study.join("dashpot"))
+        .expect("levels")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    levels.sort();
+    assert_eq!(levels.len(), 3);
+    let manifests = || -> Vec<String> {
+        let read = |level: &PathBuf| read(&level.join("manifest.json"));
+        levels.iter().map(read).collect()
+    };
+    let (kept, series) = (manifests(), levels[0].join("receivers.csv"));
+    let text = read(&series);
+    std::fs::write(&series, &text[..text.len() / 2]).expect("written");
+
+    let output = anechoic(folder.path(), &["report", "results"]);
+    assert_eq!(output.code, 3, "{}{}", output.err, output.out);
+    let name = levels[0].file_name().expect("a hash").to_string_lossy();
+    let page = read(&study.join("report.html"));
+    for text in [&output.err, &page] {
+        assert!(text.contains(&*name) && text.contains("damaged"), "{text}");
+    }
+    let after = summary();
+    let measured = ["A@grid.h_m=2", "A@grid.h_m=1", "A@grid.h_m=0.5"].map(|place| {
+        let is_error = |row: &serde_json::Value| row["metric"] == "rel_l2" && row["where"] == place;
+        after.iter().any(is_error)
+    });
+    assert_eq!(measured.iter().filter(|measured| **measured).count(), 2);
+    // The orders are claimed as before, and none is judged over two levels of three.
+    let claims = |rows: &[serde_json::Value]| -> Vec<String> {
+        let claims = rows.iter().filter(|row| !row["verdict"].is_null());
+        claims.map(|row| row["verdict"].to_string()).collect()
+    };
+    assert_eq!(claims(&before), [r#""pass""#; 2]);
+    assert_eq!(claims(&after), [r#""not evaluated""#; 2]);
+
+    let output = refine(&["--resume", "--dry-run"]);
+    assert!(
+        output.out.contains("would solve 1 runs, take 2 from disk"),
+        "{}",
+        output.out
+    );
+    assert!(output.out.contains("dashpot, grid.h_m=1"), "{}", output.out);
+    let output = refine(&["--resume"]);
+    assert_eq!(output.code, 0, "{}{}", output.err, output.out);
+    assert_eq!(summary(), before);
+    assert_eq!(
+        manifests()[1..],
+        kept[1..],
+        "what was whole is not solved again"
+    );
+    assert_eq!(read(&series), text);
+}

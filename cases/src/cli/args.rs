@@ -17,6 +17,7 @@ Examples:
   anechoic show compression-1d --toml > my.toml       edit it, then:
   anechoic run my.toml
   anechoic ablation point-source                      what each part of a method absorbs
+  anechoic converge lamb --over grid.h_m=20,10        the order with which errors fall
   anechoic report results                             rebuild the report from records
   anechoic diff before after                          what moved between two results
   anechoic score compression-1d series.csv            another program's series beside ours
@@ -32,6 +33,12 @@ Examples:
   anechoic run my.toml --format json > rows.json
   anechoic compare point-source --resume              after a stop or a kill
   anechoic run compression-1d --method damping-layer --dry-run";
+
+const CONVERGE_EXAMPLES: &str = "\
+Examples:
+  anechoic converge lamb --over grid.h_m=20,10,5
+  anechoic converge compression-1d --over grid.h_m=4,2,1,0.5 --set source.wavelet=sine-squared
+  anechoic converge compression-1d --over pml.thickness_m=40,20,10 --method pml";
 
 /// Measures how much echo boundary methods leave in particle geomechanics.
 #[derive(Debug, Parser)]
@@ -78,6 +85,9 @@ pub enum Command {
     Compare(CompareArgs),
     /// Take a method apart: solve its variants and judge what each part absorbs.
     Ablation(WorkArgs),
+    /// Refine a scene with one method: errors on all levels, and the order they fall with.
+    #[command(after_help = CONVERGE_EXAMPLES)]
+    Converge(ConvergeArgs),
     /// Compute a scene's certified reference and its floor, and store it.
     ///
     /// Its floor is how much it changes under a larger buffer and a tenth of the solver's tolerance:
@@ -202,6 +212,29 @@ impl CompareArgs {
         let mut options = self.solve.options();
         options.sampling.animation = self.animate;
         options
+    }
+}
+
+/// Which scene, which method, which levels.
+#[derive(Debug, Args)]
+pub struct ConvergeArgs {
+    /// The number to refine and its values: a field, or a method's parameter.
+    #[arg(long, value_name = "FIELD=VALUE,VALUE,...")]
+    pub over: String,
+    /// Boundary method, as a preset over sides [default: the scene's sides].
+    #[arg(long)]
+    method: Option<String>,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+impl ConvergeArgs {
+    /// The options, with the command as typed.
+    pub fn options(&self) -> Options {
+        Options {
+            methods: self.method.iter().cloned().collect(),
+            ..self.work.options()
+        }
     }
 }
 

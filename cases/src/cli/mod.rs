@@ -6,6 +6,7 @@ mod print_plan;
 
 use crate::commands::{self, Finished, Options, Plan};
 use crate::error::{CaseError, exit};
+use crate::over::Over;
 use crate::scenes::SCENES;
 use crate::{progress, scene_text};
 use anechoic_reports::diff::diff_table;
@@ -65,6 +66,12 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             let options = work.options();
             let plan = commands::plan_ablation(&options)?;
             return solve_or_show(work, &options, &plan, || commands::ablation(&options));
+        }
+        Some(Command::Converge(converge)) => {
+            let (options, over) = (converge.options(), Over::parse(&converge.over)?);
+            let plan = commands::plan_converge(&options, &over)?;
+            let solve = || commands::converge(&options, &over);
+            return solve_or_show(&converge.work, &options, &plan, solve);
         }
         Some(Command::Reference { scene, into }) => {
             stop_on_interrupt()?;

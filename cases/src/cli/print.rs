@@ -12,7 +12,7 @@ use crate::store;
 use anechoic_reports::export::summary_json;
 use anechoic_reports::format;
 use anechoic_reports::judge::Tally;
-use anechoic_reports::table::{measurement_table, ranking_table, verdict_table};
+use anechoic_reports::table::{convergence_table, measurement_table, ranking_table, verdict_table};
 use anechoic_solver::Bill;
 use anechoic_solver::boundary::METHODS;
 use anechoic_solver::problem::{PointMode, Problem, Transfer};
@@ -275,8 +275,9 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
             "{} pass, {} fail, {} not evaluated\n",
             tally.pass, tally.fail, tally.not_evaluated
         );
-        match &finished.study.ranking {
-            Some(ranking) if finished.study.runs.len() > 1 => text += &ranking_table(ranking),
+        match (&finished.study.convergence, &finished.study.ranking) {
+            (Some(convergence), _) => text += &convergence_table(convergence),
+            (_, Some(ranking)) if finished.study.runs.len() > 1 => text += &ranking_table(ranking),
             _ => text += &measurement_table(&finished.rows),
         }
         let _ = writeln!(text, "\nreport: {}", finished.study.report.display());
@@ -290,17 +291,13 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
 /// What is to be known of the results, for stderr: runs that did not end, references, pictures, notes.
 pub fn missing(finished: &Finished) -> String {
     let mut text = String::new();
-    for run in &finished.study.runs {
+    for (run, name) in finished.study.runs.iter().zip(&finished.study.names) {
         let how = match &run.record.status {
             Status::Complete => continue,
             Status::Cancelled => "stopped before its end".to_owned(),
             Status::Failed(error) => format!("failed: {error}"),
         };
-        let _ = writeln!(
-            text,
-            "{}: {how}; what stands is stored",
-            run.manifest.method
-        );
+        let _ = writeln!(text, "{name}: {how}; what stands is stored");
     }
     for note in &finished.study.notes {
         let _ = writeln!(text, "note: {note}");

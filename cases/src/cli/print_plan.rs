@@ -53,7 +53,7 @@ pub fn plan(plan: &Plan, options: &Options, format: Format) -> Result<String, Ca
         let _ = writeln!(
             text,
             "  {:<14} {} points, {} unknowns, {} steps -> {}",
-            scene.method,
+            plan.kind.name_of_scene(scene),
             format::count(scene.bill.points),
             format::count(scene.bill.unknowns),
             format::count(scene.bill.steps),

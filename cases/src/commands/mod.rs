@@ -11,6 +11,7 @@ use crate::certified::solve::{compute, difference, measure_floor};
 use crate::error::{CaseError, exit};
 use crate::filter::Filter;
 use crate::frames::Sampling;
+use crate::over::Over;
 use crate::prepare::{Prepared, Request, Target};
 use crate::resume::{Reuse, Todo, folder, tasks};
 use crate::runner::{Task, run_all};
@@ -184,6 +185,23 @@ pub fn ablation(options: &Options) -> Result<Finished, CaseError> {
     execute(Plan::ablation(options)?, options)
 }
 
+/// What `converge` would do.
+///
+/// # Errors
+/// Whatever is wrong with the request.
+pub fn plan_converge(options: &Options, over: &Over) -> Result<Plan, CaseError> {
+    Plan::converge(options, over)
+}
+
+/// Solves one scene with one method on all levels of a refinement, and judges the orders with which
+/// its errors fall.
+///
+/// # Errors
+/// As [`run`].
+pub fn converge(options: &Options, over: &Over) -> Result<Finished, CaseError> {
+    execute(Plan::converge(options, over)?, options)
+}
+
 /// A certified reference that was computed.
 #[derive(Debug)]
 pub struct Recomputed {
@@ -277,9 +295,11 @@ fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
         }
     }
     let Todo { tasks, left_out } = tasks(plan.scenes, store.folder(), options)?;
-    let mut finished = execute_tasks(tasks, &store, plan.filter.as_ref(), plan.kind, options)?;
     let left_out = left_out.into_iter();
-    let notes = left_out.map(|(method, why)| format!("{method} is left out: {why}"));
+    let notes: Vec<String> = left_out
+        .map(|(scene, why)| format!("{} is left out: {why}", plan.kind.name_of_scene(&scene)))
+        .collect();
+    let mut finished = execute_tasks(tasks, &store, plan.filter.as_ref(), plan.kind, options)?;
     finished.study.notes.extend(notes);
     Ok(finished)
 }

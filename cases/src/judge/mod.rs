@@ -3,28 +3,30 @@
 mod arrivals;
 mod certified;
 mod goodness;
+mod levels;
 mod papers;
 pub mod references;
 mod rows;
+mod series;
+mod subject;
 
 pub use certified::CERTIFIER;
+pub use levels::judge_levels;
 pub use rows::rows_unread;
+pub use series::{traces, traces_of};
 
 use crate::certified::Certified;
 use crate::runner::Run;
-use crate::scene::{Quantity, Reference, Role, Window};
-use anechoic_reference::claim::Evidence;
+use crate::scene::{Quantity, Role, Window};
 use anechoic_reports::judge::{Measurement, cost_measurements, measurements};
 use anechoic_reports::norms::{
-    NormError, Onset, Score, Trace, Traces, amplitude_ratio, echo_level_db, echo_ratio,
-    energy_left, growth_rate_per_s, peak_error, rel_l2, residual, target_energy, with_groups,
-    with_groups_db,
+    Score, Trace, Traces, echo_ratio, energy_left, growth_rate_per_s, target_energy, with_groups,
 };
 use anechoic_reports::row::{Row, Verdict};
-use anechoic_solver::problem::Problem;
-use anechoic_solver::record::{Record, Status};
+use anechoic_solver::record::Status;
 use references::{References, standard_of};
-use rows::rows_of;
+use rows::{names_of, rows_of};
+use subject::{Subject, onsets};
 
 /// The method's name in rows that give the reference's own value.
 pub const REFERENCE: &str = "reference";
@@ -45,32 +47,18 @@ pub struct Judged {
 
 /// Judges runs of one study; ratios are taken over the run of the scene's standard method.
 pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
-    let extended = certified::certifier(runs);
     let mut judged = Judged::default();
-    for (index, run) in runs.iter().enumerate() {
-        let mut numbers = match run.manifest.scored {
-            // Nobody knows what it cost.
-            Some(_) => Vec::new(),
-            None => cost_measurements(&run.manifest.method, &run.record.cost),
-        };
-        let mut missing: Vec<String> = Vec::new();
-        let obstacle = match &run.record.status {
-            Status::Complete => {
-                missing.extend(certified::measure(run, extended, &mut numbers).err());
-                let standard = standard_of(run, runs);
-                measure(run, references, standard, index == 0, &mut numbers)
-            }
-            Status::Cancelled => Err("the run was stopped before its end".to_owned()),
-            Status::Failed(error) => Err(format!("the run failed: {error}")),
-        };
-        if let Err(reason) = &obstacle
-            && run.complete()
-        {
-            missing.push(reason.clone());
-        }
-        let names = (run.manifest.method.as_str(), run.manifest.judged_as());
-        let rows = rows_of(run, names, &numbers, obstacle.err());
-        for reason in missing {
+    for run in runs {
+        let measured = measured(run, runs, references);
+        let claims = run.prepared.scene.claims();
+        let rows = rows_of(
+            run,
+            names_of(run),
+            &measured.numbers,
+            claims,
+            measured.obstacle,
+        );
+        for reason in measured.missing {
             let concerns =
                 |row: &Row| row.verdict == Some(Verdict::NotEvaluated) && row.why == reason;
             judged
@@ -85,6 +73,45 @@ pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
     }
     judged.rows.extend(papers::rows(runs));
     judged
+}
+
+/// What is measured of a run.
+struct Measured {
+    numbers: Vec<Measurement>,
+    /// Why claims cannot be judged: the run did not end, or has no reference.
+    obstacle: Option<String>,
+    /// References that are missing, and why.
+    missing: Vec<String>,
+}
+
+/// Everything that is measured of a run of a study.
+fn measured(run: &Run, runs: &[Run], references: &References) -> Measured {
+    let mut numbers = match run.manifest.scored {
+        // Nobody knows what it cost.
+        Some(_) => Vec::new(),
+        None => cost_measurements(&run.manifest.method, &run.record.cost),
+    };
+    let mut missing: Vec<String> = Vec::new();
+    let obstacle = match &run.record.status {
+        Status::Complete => {
+            let extended = certified::certifier(runs);
+            missing.extend(certified::measure(run, extended, &mut numbers).err());
+            let first = runs.first().is_some_and(|first| std::ptr::eq(first, run));
+            measure(run, references, standard_of(run, runs), first, &mut numbers)
+        }
+        Status::Cancelled => Err("the run was stopped before its end".to_owned()),
+        Status::Failed(error) => Err(format!("the run failed: {error}")),
+    };
+    if let Err(reason) = &obstacle
+        && run.complete()
+    {
+        missing.push(reason.clone());
+    }
+    Measured {
+        numbers,
+        obstacle: obstacle.err(),
+        missing,
+    }
 }
 
 /// All metrics of a complete run.
@@ -106,7 +133,10 @@ fn measure(
         // Of another program nobody said what its boundary is a model of.
         truths.retain(|truth| truth.role != Role::Modelled);
     }
-    let modelled = truths.iter().any(|truth| truth.role == Role::Modelled);
+    let modelled = |evidence| {
+        let mut others = truths.iter();
+        others.any(|r| r.role == Role::Modelled && r.evidence == evidence)
+    };
     for reference in &truths {
         let subject = Subject {
             problem: &problem,
@@ -116,16 +146,18 @@ fn measure(
             run: traces(&run.record, reference.quantity),
             standard: standard.map(|s| traces(&s.record, reference.quantity)),
         };
-        // Without echo is all that is known of some runs; where more is known, that is compared.
-        if reference.role == Role::Modelled
-            || reference.evidence == Evidence::Certified
-            || !modelled
-        {
+        // Without echo is all that is known of some runs; where the same evidence knows the boundaries
+        // as modelled, that is compared.
+        if reference.role == Role::Modelled || !modelled(reference.evidence) {
             goodness::measure(&subject, numbers);
         }
         match reference.role {
             Role::Modelled => subject.against_model(numbers),
             Role::NoEcho => {
+                // Where no closed form knows the boundaries as modelled, all distance is the method's.
+                if !modelled(reference.evidence) {
+                    subject.distances(numbers);
+                }
                 subject.echo(&windows, scene.pulse_amplitude(), numbers);
                 if first {
                     subject.floor(&windows, numbers);
@@ -197,205 +229,4 @@ fn reference_floor(
         with_groups(&scores)
     });
     numbers.extend(measurements(REFERENCE, "echo_ratio", "1", None, scores));
-}
-
-/// Each receiver's own start of its window.
-fn onsets(windows: &[Window]) -> Onset {
-    let own = windows.iter().filter(|window| window.label.is_empty());
-    Onset::Each(own.map(|w| (w.receiver.clone(), w.from_s)).collect())
-}
-
-/// A run, what is true of it, and the run that absorbs nothing.
-struct Subject<'a> {
-    method: &'a str,
-    problem: &'a Problem<2>,
-    reference: &'a Reference,
-    truth: Result<Traces, NormError>,
-    run: Result<Traces, NormError>,
-    standard: Option<Result<Traces, NormError>>,
-}
-
-impl Subject<'_> {
-    fn against(&self) -> Option<(Evidence, &str)> {
-        Some((self.reference.evidence, self.reference.name))
-    }
-
-    /// Run and truth, when both are in order.
-    fn pair(&self) -> Result<(&Traces, &Traces), NormError> {
-        match (&self.run, &self.truth) {
-            (Ok(run), Ok(truth)) => Ok((run, truth)),
-            (Err(error), _) | (_, Err(error)) => Err(error.clone()),
-        }
-    }
-
-    /// How well the solver does what the closed form says of the boundaries as modelled.
-    fn against_model(&self, numbers: &mut Vec<Measurement>) {
-        type Norm = fn(&Traces, &Traces) -> Result<Vec<Score>, NormError>;
-        let norms: [(&str, Norm); 2] = [("rel_l2", rel_l2), ("peak_error", peak_error)];
-        for (metric, norm) in norms {
-            let scores = self.pair().and_then(|(run, truth)| norm(run, truth));
-            let scores = scores.and_then(|scores| with_groups(&scores));
-            numbers.extend(measurements(
-                self.method,
-                metric,
-                "1",
-                self.against(),
-                scores,
-            ));
-        }
-        if let (true, Ok((run, truth))) = (self.reference.pulses, self.pair()) {
-            numbers.extend(arrivals::measure(
-                self.method,
-                self.against(),
-                run,
-                truth,
-                &|receiver| arrivals::prescribed_until(self.problem, receiver),
-            ));
-        }
-    }
-
-    /// How much echo the method leaves.
-    fn echo(&self, windows: &[Window], amplitude: Option<f64>, numbers: &mut Vec<Measurement>) {
-        if let Some(amplitude) = amplitude {
-            self.residuals(windows, amplitude, numbers);
-        }
-        let level = self
-            .pair()
-            .and_then(|(run, truth)| with_groups_db(&echo_level_db(run, truth)?));
-        self.put("echo_level_db", "dB", level, numbers);
-        if self.reference.evidence == Evidence::Certified {
-            let distance = self
-                .pair()
-                .and_then(|(run, truth)| with_groups(&rel_l2(run, truth)?));
-            self.put("rel_l2", "1", distance, numbers);
-        }
-        let Some(standard) = &self.standard else {
-            return;
-        };
-        let onset = onsets(windows);
-        let with_standard = self.pair().and_then(|(run, truth)| {
-            let standard = standard.as_ref().map_err(NormError::clone)?;
-            Ok((run, truth, standard))
-        });
-        let echo = with_standard.clone().and_then(|(run, truth, standard)| {
-            with_groups(&echo_ratio(run, truth, standard, &onset)?)
-        });
-        let ratio = with_standard
-            .and_then(|(run, _, standard)| with_groups(&amplitude_ratio(run, standard, &onset)?));
-        self.put("echo_ratio", "1", echo, numbers);
-        self.put("amplitude_ratio", "1", ratio, numbers);
-    }
-
-    /// What is left in each window, over the pulse.
-    fn residuals(&self, windows: &[Window], amplitude: f64, numbers: &mut Vec<Measurement>) {
-        for window in windows {
-            let score = self.pair().and_then(|(run, truth)| {
-                let (run, truth) = (cut(run, window)?, cut(truth, window)?);
-                residual(&run, &truth, amplitude, &Onset::Same(window.from_s))
-            });
-            let mut number = self.at(&window.place(), "residual", "1", score);
-            if let Some((evidence, name)) = window.stated_by {
-                number.against = Some((evidence, name.to_owned()));
-            }
-            numbers.push(number);
-        }
-    }
-
-    /// What a perfect absorber scores in the amplitude ratio.
-    fn floor(&self, windows: &[Window], numbers: &mut Vec<Measurement>) {
-        let Some(Ok(standard)) = &self.standard else {
-            return;
-        };
-        let scores = self.pair().and_then(|(_, truth)| {
-            with_groups(&amplitude_ratio(truth, standard, &onsets(windows))?)
-        });
-        let against = self.against();
-        numbers.extend(measurements(
-            REFERENCE,
-            "amplitude_ratio",
-            "1",
-            against,
-            scores,
-        ));
-    }
-
-    /// Numbers of one metric at all places.
-    fn put(
-        &self,
-        metric: &str,
-        unit: &str,
-        scores: Result<Vec<Score>, NormError>,
-        numbers: &mut Vec<Measurement>,
-    ) {
-        let against = self.against();
-        numbers.extend(measurements(self.method, metric, unit, against, scores));
-    }
-
-    /// One number at one place.
-    fn at(
-        &self,
-        place: &str,
-        metric: &str,
-        unit: &str,
-        scores: Result<Vec<Score>, NormError>,
-    ) -> Measurement {
-        Measurement {
-            method: self.method.to_owned(),
-            metric: metric.to_owned(),
-            place: place.to_owned(),
-            value: match scores.as_deref() {
-                Ok([score]) => Ok(score.value),
-                Ok(_) => Err("not a single receiver".to_owned()),
-                Err(error) => Err(error.to_string()),
-            },
-            unit: unit.to_owned(),
-            against: Some((self.reference.evidence, self.reference.name.to_owned())),
-        }
-    }
-}
-
-/// The recorded motion.
-pub fn traces(record: &Record, quantity: Quantity) -> Result<Traces, NormError> {
-    let letter = quantity.letter();
-    let suffixes = [format!("{letter}x"), format!("{letter}y")];
-    Traces::from_table(&record.receivers, &[&suffixes[0], &suffixes[1]])
-}
-
-/// The true motion at the record's times.
-pub fn traces_of(reference: &Reference, record: &Record) -> Result<Traces, NormError> {
-    let receivers = reference
-        .receivers
-        .iter()
-        .map(|(name, components)| Trace {
-            name: name.clone(),
-            components: components.to_vec(),
-        })
-        .collect();
-    Traces::new(record.receivers.times.clone(), receivers)
-}
-
-/// The receiver of a window alone, up to the window's end.
-fn cut(traces: &Traces, window: &Window) -> Result<Traces, NormError> {
-    let end = window.to_s.map_or(traces.times().len(), |to| {
-        traces.times().partition_point(|t| *t <= to)
-    });
-    let receiver = traces
-        .receivers()
-        .iter()
-        .find(|trace| trace.name == window.receiver)
-        .ok_or_else(|| NormError::MissingReceiver {
-            receiver: window.receiver.clone(),
-            from: "the record",
-        })?;
-    Traces::new(
-        traces.times()[..end].to_vec(),
-        vec![Trace {
-            name: receiver.name.clone(),
-            components: receiver
-                .components
-                .iter()
-                .map(|values| values[..end].to_vec())
-                .collect(),
-        }],
-    )
 }

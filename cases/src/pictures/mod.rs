@@ -2,6 +2,9 @@
 
 pub mod animation;
 mod fields;
+mod levels;
+
+pub use levels::draw_convergence;
 
 use crate::judge::references::References;
 use crate::judge::{traces, traces_of};
@@ -75,13 +78,13 @@ pub fn missing(name: &str, reason: &dyn std::fmt::Display) -> String {
 
 /// All pictures that the runs allow. One that cannot be made costs a note, not the others: the runs
 /// are finished, and their numbers stand.
-pub fn draw(runs: &[Run], kind: Kind, ranking: &Ranking, references: &References) -> Gallery {
+pub fn draw(runs: &[Run], kind: &Kind, ranking: &Ranking, references: &References) -> Gallery {
     let mut gallery = Gallery::default();
     let runs: Vec<&Run> = runs.iter().filter(|run| run.complete()).collect();
     let Some(first) = runs.first() else {
         return gallery;
     };
-    if kind == Kind::Ablation {
+    if *kind == Kind::Ablation {
         gallery.add("ablation", parts(&runs, ranking));
         return gallery;
     }

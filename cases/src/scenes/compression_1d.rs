@@ -91,14 +91,9 @@ pub static INFO: SceneInfo = SceneInfo {
 };
 
 impl Compression1d {
-    /// Height of the cells in use (m).
-    fn cell(&self) -> f64 {
-        fitted_cell(&self.body.target(), self.grid.h_m)[1]
-    }
-
     /// Time step (s).
     fn dt(&self) -> f64 {
-        self.time.dt_s.unwrap_or(0.005 * self.cell())
+        self.time.dt_s.unwrap_or(0.005 * self.cell_m())
     }
 
     /// The top's velocity over time, upward.
@@ -177,6 +172,15 @@ impl Scene for Compression1d {
 
     fn claims(&self) -> Vec<SceneClaim> {
         column::claims(self)
+    }
+
+    /// Their height: waves run up and down alone.
+    fn cell_m(&self) -> f64 {
+        fitted_cell(&self.body.target(), self.grid.h_m)[1]
+    }
+
+    fn orders(&self, sizes: &[f64]) -> Vec<SceneClaim> {
+        column::orders(self, sizes)
     }
 
     fn serves_until_s(&self) -> Option<f64> {

@@ -191,15 +191,11 @@ impl Store {
     }
 }
 
-/// Stores the rows of a run beside its record; `case_folder` is that of the case.
+/// Stores a run's own rows beside its record; `case_folder` is that of the case.
 ///
 /// # Errors
 /// [`CaseError::Storage`].
-pub fn save_rows(case_folder: &Path, manifest: &Manifest, rows: &[Row]) -> Result<(), CaseError> {
-    let own: Vec<&Row> = rows
-        .iter()
-        .filter(|row| row.method == manifest.method)
-        .collect();
+pub fn save_rows(case_folder: &Path, manifest: &Manifest, own: &[&Row]) -> Result<(), CaseError> {
     let path = case_folder.join(manifest.folder()).join("metrics.json");
     write_file(&path, &json(&own)?)
 }

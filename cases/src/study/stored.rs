@@ -64,7 +64,7 @@ impl Study {
     /// [`CaseError::Storage`].
     pub fn announce(&self) -> Result<(), CaseError> {
         let file = StudyFile {
-            kind: self.kind,
+            kind: self.kind.clone(),
             command: self.command.clone(),
             runs: self.order.clone(),
         };

@@ -34,6 +34,7 @@ fn page(study: &Study) -> Markup {
                     (unfinished(study))
                     (verdicts(study))
                     (ranking(study))
+                    (convergence(study))
                     (figures(&study.figures))
                     (notes(&study.notes))
                     (ledger(study))
@@ -131,6 +132,21 @@ fn ranking(study: &Study) -> Markup {
                     None => p.soft { "The floor of the reference is not known." },
                 }
                 (tables::ranking(ranking))
+            }
+        }
+    }
+}
+
+fn convergence(study: &Study) -> Markup {
+    html! {
+        @if let Some(convergence) = &study.convergence {
+            section {
+                h2 { "Convergence over " code { (convergence.over) } }
+                p.soft {
+                    "Errors of " code { (convergence.method) } " on each level, the order they fall \
+                     with (least squares, with its 95 % interval), and between neighbours."
+                }
+                (tables::convergence(convergence))
             }
         }
     }

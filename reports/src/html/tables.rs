@@ -2,11 +2,12 @@
 //!
 //! Cells carry their column's name, so that narrow screens can show each row as a card.
 
+use crate::convergence::Convergence;
 use crate::format;
 use crate::ranking::Ranking;
 use crate::row::{Row, Verdict};
 use crate::study::{Finding, LedgerEntry, RunSummary};
-use crate::table::{ranking_cells, value_text, verdict_name};
+use crate::table::{convergence_cells, convergence_head, ranking_cells, value_text, verdict_name};
 use anechoic_solver::record::Status;
 use maud::{Markup, html};
 
@@ -90,6 +91,31 @@ pub(super) fn ranking(ranking: &Ranking) -> Markup {
                         tr {
                             @for (i, cell) in ranking_cells(ranking, method).iter().enumerate() {
                                 td.number[i != 1].name[i == 1] { (cell) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+pub(super) fn convergence(convergence: &Convergence) -> Markup {
+    html! {
+        div.scroll {
+            table {
+                thead {
+                    tr {
+                        @for (i, head) in convergence_head(convergence).iter().enumerate() {
+                            th.number[i > 1] { (head) }
+                        }
+                    }
+                }
+                tbody {
+                    @for curve in &convergence.curves {
+                        tr {
+                            @for (i, cell) in convergence_cells(curve).iter().enumerate() {
+                                td.number[i > 1].name[i < 2] { (cell) }
                             }
                         }
                     }

@@ -1,7 +1,9 @@
 //! Straight lines by least squares, with intervals.
 
+use serde::{Deserialize, Serialize};
+
 /// A fitted slope with its 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Slope {
     /// Least-squares slope.
     pub value: f64,

@@ -2,9 +2,10 @@
 
 use super::fit::{Slope, student_slope};
 use super::{NormError, check_finite, check_length};
+use serde::{Deserialize, Serialize};
 
 /// Order of convergence on the levels that were given.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Order {
     /// Between neighbouring levels: log(e_i / e_{i+1}) / log(h_i / h_{i+1}).
     pub pairwise: Vec<f64>,

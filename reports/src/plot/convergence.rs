@@ -13,12 +13,12 @@ const LEGEND: f64 = 250.0;
 /// Smallest and largest value.
 type Range = (f64, f64);
 
-/// One method or scene on several levels.
+/// One method, scene or receiver on several levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvergenceSeries {
-    /// Name in the legend; the colour follows it.
+    /// Name in the legend; a method's colour follows it.
     pub name: String,
-    /// Cell sizes (m).
+    /// Cell sizes (m), or other values that were refined.
     pub h: Vec<f64>,
     /// Errors, positive.
     pub errors: Vec<f64>,
@@ -33,6 +33,8 @@ pub struct ConvergencePlot {
     pub quantity: String,
     /// The series.
     pub series: Vec<ConvergenceSeries>,
+    /// What was refined, for example `cell size h (m)`.
+    pub refined: String,
     /// Order of the slope triangle.
     pub slope: f64,
 }
@@ -56,7 +58,7 @@ impl ConvergencePlot {
             draw_series(&mut drawing, &panel, series, i);
         }
         panel.frame(&mut drawing, true, true);
-        panel.x_title(&mut drawing, "cell size h (m)");
+        panel.x_title(&mut drawing, &self.refined);
         panel.y_title(&mut drawing, &self.quantity, 58.0);
         Ok(drawing)
     }
@@ -121,7 +123,7 @@ impl ConvergencePlot {
 }
 
 fn draw_series(drawing: &mut Drawing, panel: &Panel, series: &ConvergenceSeries, index: usize) {
-    let colour = palette::method(&series.name);
+    let colour = palette::series(&series.name, index);
     let points = series.h.iter().zip(&series.errors);
     let path: Vec<(f64, f64)> = points.map(|(h, e)| panel.at(*h, *e)).collect();
     for point in &path {

@@ -53,6 +53,15 @@ pub fn method(name: &str) -> RGBColor {
     OTHERS[(hash % OTHERS.len() as u64) as usize]
 }
 
+/// The colour of a series in a picture: that of the method if it is named like a known one, else the
+/// next of those that no method has.
+pub fn series(name: &str, index: usize) -> RGBColor {
+    if NAMED.iter().any(|(known, _)| *known == name) {
+        return method(name);
+    }
+    OTHERS[index % OTHERS.len()]
+}
+
 /// Blue over white to red for `-1..1`: the scheme RdBu of ColorBrewer (Brewer and Harrower),
 /// interpolated.
 pub fn diverging(value: f64) -> RGBColor {

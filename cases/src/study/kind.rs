@@ -1,0 +1,77 @@
+//! What studies are for, and how their runs are told apart.
+
+use super::stored::Damage;
+use crate::over::level_in;
+use crate::prepare::Prepared;
+use crate::runner::Run;
+use anechoic_reports::convergence::{at_level, label};
+use anechoic_reports::row::Row;
+use serde::{Deserialize, Serialize};
+
+/// What a study is for.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// Methods side by side, ranked.
+    #[default]
+    Comparison,
+    /// A method taken apart: what each part absorbs.
+    Ablation,
+    /// A scene on finer and finer levels, coarse first: with which order errors fall.
+    Convergence {
+        /// The field that is refined.
+        over: String,
+    },
+}
+
+impl Kind {
+    /// Folder of a case's study of this kind.
+    pub fn folder(&self, case: &str) -> String {
+        match self {
+            Kind::Comparison => case.to_owned(),
+            Kind::Ablation => format!("{case}-ablation"),
+            Kind::Convergence { .. } => format!("{case}-converge"),
+        }
+    }
+
+    /// What tells a run from the others of its study, for people.
+    pub fn name(&self, run: &Run) -> String {
+        self.name_of(&run.manifest.method, &run.prepared)
+    }
+
+    /// The same of a scene's run.
+    pub fn name_of_scene(&self, scene: &Prepared) -> String {
+        self.name_of(&scene.method, scene)
+    }
+
+    /// The same of a run that cannot be read: nobody knows its level.
+    pub fn name_of_damage(&self, damage: &Damage) -> String {
+        match self {
+            Kind::Convergence { .. } => damage.folder.display().to_string(),
+            Kind::Comparison | Kind::Ablation => damage.method(),
+        }
+    }
+
+    fn name_of(&self, method: &str, scene: &Prepared) -> String {
+        match self.level(scene) {
+            Some((over, value)) => format!("{method}, {}", label(over, value)),
+            None => method.to_owned(),
+        }
+    }
+
+    /// Is a row one of this run's?
+    pub(super) fn owns(&self, run: &Run, row: &Row) -> bool {
+        let place = self
+            .level(&run.prepared)
+            .map(|(over, value)| at_level("", over, value));
+        row.method == run.manifest.method && place.is_none_or(|end| row.place.ends_with(&end))
+    }
+
+    /// The field that is refined, and a scene's value of it.
+    fn level(&self, scene: &Prepared) -> Option<(&str, f64)> {
+        match self {
+            Kind::Convergence { over } => Some((over, level_in(&scene.table, over)?)),
+            Kind::Comparison | Kind::Ablation => None,
+        }
+    }
+}
