@@ -171,7 +171,7 @@ impl BoundarySpec {
 pub const NUMERICS: &[Field] = &[
     Field::new(
         "basis",
-        Kind::Word(&["linear"]),
+        Kind::Word(&["linear", "gimp", "bspline"]),
         "shape functions on the grid",
     ),
     Field::new(

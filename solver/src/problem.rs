@@ -66,6 +66,10 @@ impl Side {
 pub enum BasisKind {
     /// Multilinear, one cell wide.
     Linear,
+    /// Linear functions averaged over the extent of a point (uniform GIMP): smooth across cells' faces.
+    Gimp,
+    /// Quadratic B-splines: smooth across cells' faces, three cells wide.
+    Bspline,
 }
 
 /// Time integration.

@@ -90,7 +90,7 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
     };
     Model::new(Parts {
         solver: LinearSolver::new(kind, problem.rel_tol, geometry.grid.node_count()),
-        disc: on_grid(problem.basis, &geometry.grid),
+        disc: on_grid(problem.basis, &geometry.grid, geometry.per_axis),
         grid: geometry.grid,
         points,
         regions,
@@ -231,13 +231,11 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
     } else {
         2 * size_of::<[[f64; D]; D]>()
     };
-    let disc = on_grid(
-        problem.basis,
-        &Grid {
-            cells: [1; D],
-            ..geometry.grid.clone()
-        },
-    );
+    let few_cells = Grid {
+        cells: [2; D],
+        ..geometry.grid.clone()
+    };
+    let disc = on_grid(problem.basis, &few_cells, geometry.per_axis);
     let layers = |l: &Layout| l.outside + l.inside;
     let methods = geometry.assigned.iter().map(|a| match layers(&a.layout) {
         0.0 => format!("{}: {}", a.side.name(), a.method.method),
@@ -251,7 +249,6 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
     let basis = format!("{} basis on cells of {cell} m", disc.name());
     let mut features = vec![basis, scheme.to_lowercase()];
     features.extend(methods);
-    let neighbours = 3usize.pow(D as u32);
     let matrices = if problem.transfer == Transfer::Keep {
         2
     } else {
@@ -265,6 +262,6 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
         unknowns: nodes * D,
         steps: steps(problem),
         bytes_per_point: sample.bytes_per_point() + stress + disc.bytes_per_point(),
-        bytes_per_node: neighbours * block + 16 * size_of::<Vector<D>>(),
+        bytes_per_node: disc.couplings() * block + 16 * size_of::<Vector<D>>(),
     })
 }

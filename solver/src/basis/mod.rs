@@ -3,6 +3,8 @@
 //! Kernels speak to a [`Discretisation`] in blocks of points, so that the choice of the basis is
 //! made once a block and the loops within are compiled for it.
 
+pub mod bspline;
+pub mod gimp;
 pub mod grid_basis;
 pub mod linear;
 
@@ -10,6 +12,7 @@ use crate::grid::Grid;
 use crate::linear::block_matrix::{BlockMatrix, Pattern};
 use crate::problem::BasisKind;
 use crate::tensor::{Matrix, Tensor4, Vector};
+use grid_basis::GridDiscretisation;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -126,15 +129,24 @@ pub trait Discretisation<const D: usize>: Send {
         out: &mut BlockMatrix<D>,
     );
 
+    /// Nodes that a node couples with, itself included.
+    fn couplings(&self) -> usize;
+
     /// Memory of one point in bytes.
     fn bytes_per_point(&self) -> usize;
 }
 
-/// The discretisation of `grid` by the basis called `kind`.
-pub fn on_grid<const D: usize>(kind: BasisKind, grid: &Grid<D>) -> Box<dyn Discretisation<D>> {
+/// The discretisation by the basis called `kind` of `grid`, whose cells are filled with `per_axis`
+/// points along each axis.
+pub fn on_grid<const D: usize>(
+    kind: BasisKind,
+    grid: &Grid<D>,
+    per_axis: usize,
+) -> Box<dyn Discretisation<D>> {
+    let grid = grid.clone();
     match kind {
-        BasisKind::Linear => Box::new(grid_basis::GridDiscretisation::<linear::Linear, D>::new(
-            grid.clone(),
-        )),
+        BasisKind::Linear => Box::new(GridDiscretisation::new(grid, linear::Linear)),
+        BasisKind::Gimp => Box::new(GridDiscretisation::new(grid, gimp::Gimp::new(per_axis))),
+        BasisKind::Bspline => Box::new(GridDiscretisation::new(grid, bspline::QuadraticBSpline)),
     }
 }
