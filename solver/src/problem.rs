@@ -82,6 +82,17 @@ pub enum Scheme {
     QuasiStatic,
 }
 
+/// How the inertia of points reaches the nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MassKind {
+    /// Summed to each node.
+    #[default]
+    Lumped,
+    /// Coupling nodes as the shape functions do.
+    Consistent,
+}
+
 /// Whether points move with the material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -184,6 +195,8 @@ pub struct Problem<const D: usize> {
     pub basis: BasisKind,
     /// Time integration.
     pub scheme: Scheme,
+    /// How the inertia of points reaches the nodes.
+    pub mass: MassKind,
     /// Time step (s).
     pub dt: f64,
     /// End of the run (s).

@@ -14,7 +14,7 @@ use crate::physics::bulk::{Carried, Kept};
 use crate::physics::kernel::{NodeTerm, RegionKernel};
 use crate::physics::model::{Model, Parts, Region};
 use crate::points::Points;
-use crate::problem::{Drive, PointMode, Problem, Scheme, SolverKind, Transfer};
+use crate::problem::{Drive, MassKind, PointMode, Problem, Scheme, SolverKind, Transfer};
 use crate::tensor::Vector;
 use std::ops::Range;
 
@@ -103,6 +103,7 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
         },
         replaced_displacement,
         transfer: problem.transfer,
+        consistent: problem.mass == MassKind::Consistent,
     })
 }
 
@@ -248,6 +249,9 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
     let cell = geometry.grid.h.map(|h| format!("{h:.6}")).join(" x ");
     let basis = format!("{} basis on cells of {cell} m", disc.name());
     let mut features = vec![basis, scheme.to_lowercase()];
+    if problem.mass == MassKind::Consistent {
+        features.push("consistent masses".to_owned());
+    }
     features.extend(methods);
     let matrices = if problem.transfer == Transfer::Keep {
         2

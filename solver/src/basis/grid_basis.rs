@@ -325,6 +325,31 @@ impl<B: Basis, const D: usize> Discretisation<D> for GridDiscretisation<B, D> {
         }
     }
 
+    fn scatter_mass(&self, block: Range<usize>, weights: &[Vector<D>], out: &mut BlockMatrix<D>) {
+        let w = Self::NODES;
+        let mut local = std::mem::take(&mut out.scratch);
+        local.resize(w * w, [[0.0; D]; D]);
+        let mut last = block.start;
+        for (p, weight) in block.clone().zip(weights) {
+            let (nodes, n, _) = self.stencil(p);
+            if nodes != self.stencil(last).0 {
+                self.flush(self.stencil(last).0, &mut local, out);
+            }
+            last = p;
+            for (i, ni) in n.iter().enumerate() {
+                for (j, nj) in n.iter().enumerate() {
+                    for (k, weight) in weight.iter().enumerate() {
+                        local[i * w + j][k][k] += weight * ni * nj;
+                    }
+                }
+            }
+        }
+        if !block.is_empty() {
+            self.flush(self.stencil(last).0, &mut local, out);
+        }
+        out.scratch = local;
+    }
+
     fn scatter_tangent(
         &self,
         block: Range<usize>,

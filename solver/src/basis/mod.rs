@@ -120,6 +120,9 @@ pub trait Discretisation<const D: usize>: Send {
         out: &mut [Vector<D>],
     );
 
+    /// Adds `w_p N_I N_J` in each direction to the diagonal of block (I, J): consistent masses.
+    fn scatter_mass(&self, block: Range<usize>, weights: &[Vector<D>], out: &mut BlockMatrix<D>);
+
     /// Adds `V_p dN_I/dx_j A_ijkl dN_J/dx_l` to entry (i, k) of block (I, J).
     fn scatter_tangent(
         &self,
