@@ -1,7 +1,7 @@
 //! The case runner: scenes as data, runs, records on disk, judgement, the command line.
 //!
 //! - [`scenes`]: the benchmarks, one file each; [`scene`] says what a benchmark is.
-//! - [`spec`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
+//! - [`spec`], [`half_space`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
 //! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
 //! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
 //! - [`runner`], [`progress`]: solving; [`store`]: records on disk.
@@ -17,6 +17,7 @@ pub mod draft;
 pub mod error;
 pub mod field;
 pub mod filter;
+pub mod half_space;
 pub mod judge;
 pub mod pictures;
 pub mod prepare;

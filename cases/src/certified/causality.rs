@@ -15,12 +15,12 @@ const CELLS_AHEAD: f64 = 25.0;
 pub const EXTENDED: &str = "extended";
 
 /// The problem with as much material behind each extended side as its end needs, stretched by
-/// `factor`.
+/// `factor`; a side that states its thickness keeps it.
 pub fn with_buffers(problem: &Problem<2>, factor: f64) -> Problem<2> {
     let mut extended = problem.clone();
     for (axis, pair) in extended.sides.iter_mut().enumerate() {
         for (end, method) in pair.iter_mut().enumerate() {
-            if method.method == EXTENDED {
+            if method.method == EXTENDED && method.given_number("thickness_m").is_none() {
                 let side = Side {
                     axis,
                     upper: end == 1,

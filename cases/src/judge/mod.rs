@@ -115,7 +115,12 @@ fn measure(
     let windows = scene.windows();
     energies(run, &windows, numbers);
     let problem = scene.problem();
-    for reference in &references.of(run)? {
+    let truths = references.of(run)?;
+    let modelled = |evidence| {
+        let mut others = truths.iter();
+        others.any(|r| r.role == Role::Modelled && r.evidence == evidence)
+    };
+    for reference in &truths {
         let subject = Subject {
             problem: &problem,
             method: &run.manifest.method,
@@ -127,6 +132,10 @@ fn measure(
         match reference.role {
             Role::Modelled => subject.against_model(numbers),
             Role::NoEcho => {
+                // Where no closed form knows the boundaries as modelled, all distance is the method's.
+                if !modelled(reference.evidence) {
+                    subject.distances(numbers);
+                }
                 subject.echo(&windows, scene.pulse_amplitude(), numbers);
                 if first {
                     subject.floor(&windows, numbers);
@@ -229,21 +238,20 @@ impl Subject<'_> {
         }
     }
 
-    /// How well the solver does what the closed form says of the boundaries as modelled.
-    fn against_model(&self, numbers: &mut Vec<Measurement>) {
+    /// Distance to the reference over the whole run.
+    fn distances(&self, numbers: &mut Vec<Measurement>) {
         type Norm = fn(&Traces, &Traces) -> Result<Vec<Score>, NormError>;
         let norms: [(&str, Norm); 2] = [("rel_l2", rel_l2), ("peak_error", peak_error)];
         for (metric, norm) in norms {
             let scores = self.pair().and_then(|(run, truth)| norm(run, truth));
             let scores = scores.and_then(|scores| with_groups(&scores));
-            numbers.extend(measurements(
-                self.method,
-                metric,
-                "1",
-                self.against(),
-                scores,
-            ));
+            self.put(metric, "1", scores, numbers);
         }
+    }
+
+    /// How well the solver does what the closed form says of the boundaries as modelled.
+    fn against_model(&self, numbers: &mut Vec<Measurement>) {
+        self.distances(numbers);
         if let (true, Ok((run, truth))) = (self.reference.pulses, self.pair()) {
             numbers.extend(arrivals::measure(
                 self.method,
@@ -264,12 +272,6 @@ impl Subject<'_> {
             .pair()
             .and_then(|(run, truth)| with_groups_db(&echo_level_db(run, truth)?));
         self.put("echo_level_db", "dB", level, numbers);
-        if self.reference.evidence == Evidence::Certified {
-            let distance = self
-                .pair()
-                .and_then(|(run, truth)| with_groups(&rel_l2(run, truth)?));
-            self.put("rel_l2", "1", distance, numbers);
-        }
         let Some(standard) = &self.standard else {
             return;
         };

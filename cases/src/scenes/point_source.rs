@@ -27,12 +27,12 @@ mod paper;
 mod values;
 
 use crate::checks::Checks;
+use crate::half_space::{Source, TARGET_AND_SOURCE, TargetSpec};
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::probe::Probes;
-use anechoic_solver::problem::{Aabb, BasisKind, Drive, Problem, Scheme};
-use anechoic_solver::wavelet::{Pulse, Wavelet};
+use anechoic_solver::problem::{BasisKind, Problem, Scheme};
 use serde::{Deserialize, Serialize};
 
 /// The scene; `Default` holds the paper's values.
@@ -62,48 +62,6 @@ pub struct PointSource {
     pub boundary: BoundarySpec,
 }
 
-/// A rectangle below the surface y = 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TargetSpec {
-    /// Left side (m).
-    pub x_min_m: f64,
-    /// Right side (m).
-    pub x_max_m: f64,
-    /// Depth (m).
-    pub depth_m: f64,
-}
-
-/// The force.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Source {
-    /// Place (m).
-    pub x_m: f64,
-    /// Place (m).
-    pub y_m: f64,
-    /// Line of action.
-    pub direction: Direction,
-    /// Shape over time.
-    pub wavelet: Wavelet,
-    /// Frequency f (Hz).
-    #[serde(rename = "frequency_Hz")]
-    pub frequency: f64,
-    /// Largest force per metre of thickness (N/m).
-    #[serde(rename = "amplitude_N_m")]
-    pub amplitude: f64,
-    /// Centre of the Ricker wavelet (s).
-    pub t0_s: f64,
-}
-
-/// Line of action of the force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Direction {
-    /// Positive downward.
-    Vertical,
-    /// Positive to the right.
-    Horizontal,
-}
-
 impl Default for PointSource {
     fn default() -> Self {
         toml::from_str(values::PAPER).expect("the paper's values are a scene")
@@ -118,7 +76,7 @@ pub static INFO: SceneInfo = SceneInfo {
     source: "K25, sections 2 and 3.1 (doi 10.1016/j.soildyn.2025.109219)",
     fields: &[
         NUMERICS,
-        values::TARGET_AND_SOURCE,
+        TARGET_AND_SOURCE,
         ELASTIC,
         PROBES_AND_SIDES,
     ],
@@ -143,34 +101,6 @@ impl PointSource {
     fn dt(&self) -> f64 {
         self.time.dt_s.unwrap_or(0.01)
     }
-
-    fn body(&self) -> Aabb<2> {
-        Aabb {
-            lower: [self.target.x_min_m, -self.target.depth_m],
-            upper: [self.target.x_max_m, 0.0],
-        }
-    }
-
-    /// The force over time.
-    fn pulse(&self) -> Pulse {
-        Pulse {
-            wavelet: self.source.wavelet,
-            amplitude: self.source.amplitude,
-            frequency: self.source.frequency,
-            t0: self.source.t0_s,
-        }
-    }
-
-    fn force(&self) -> Drive<2> {
-        Drive::PointForce {
-            place: [self.source.x_m, self.source.y_m],
-            direction: match self.source.direction {
-                Direction::Vertical => [0.0, -1.0],
-                Direction::Horizontal => [1.0, 0.0],
-            },
-            pulse: self.pulse(),
-        }
-    }
 }
 
 impl Scene for PointSource {
@@ -178,7 +108,7 @@ impl Scene for PointSource {
         let end = self.time.end_s;
         let steps = end / self.dt();
         Problem {
-            target: self.body(),
+            target: self.target.body(),
             cell_size: self.grid.h_m,
             basis: self.basis,
             scheme: self.time.scheme,
@@ -190,7 +120,7 @@ impl Scene for PointSource {
             points_per_cell: self.points.per_cell,
             material: self.material.elastic(),
             sides: self.boundary.sides(),
-            drives: vec![self.force()],
+            drives: vec![self.source.force()],
             probes: Probes {
                 receivers: self.receivers.iter().map(ReceiverSpec::probe).collect(),
                 lines: Vec::new(),
@@ -207,20 +137,12 @@ impl Scene for PointSource {
     }
 
     fn check(&self, checks: &mut Checks<'_>) {
-        let body = self.body();
-        let size = [0, 1].map(|a| body.upper[a] - body.lower[a]);
-        checks.require(size[0] > 0.0, "target.x_max_m", || {
-            format!(
-                "{} m is not right of target.x_min_m = {} m",
-                body.upper[0], body.lower[0]
-            )
-        });
-        checks.layers(&self.boundary, size);
+        let body = self.target.body();
+        self.target.check(checks);
+        checks.layers(&self.boundary, self.target.size());
         checks.points(&self.points);
         checks.receivers(&self.receivers, &body);
-        checks.inside("source.x_m", "the source", self.source.x_m, &body, 0);
-        checks.inside("source.y_m", "the source", self.source.y_m, &body, 1);
-        checks.pulse(&self.pulse(), self.time.end_s);
+        self.source.check(checks, &body, self.time.end_s);
         checks.step(self.dt(), self.time.end_s);
         checks.require(self.t1_s < self.time.end_s, "t1_s", || {
             format!(

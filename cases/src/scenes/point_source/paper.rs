@@ -1,6 +1,7 @@
 //! What the paper says of the point source, and how it fares here.
 
-use super::{Direction, PointSource};
+use super::PointSource;
+use crate::half_space::Direction;
 use anechoic_reports::study::Finding;
 use anechoic_solver::wavelet::Wavelet;
 

@@ -1,6 +1,5 @@
 //! The point source's values as data: the paper's, and what profiles, presets and methods change.
 
-use crate::field::{Field, Kind, Range};
 use crate::scene::Overlay;
 
 /// The paper's values, reading `receivers` of its geometry, Test 1.
@@ -42,57 +41,6 @@ right = { method = "pml" }
 bottom = { method = "pml" }
 top = { method = "free" }
 "#;
-
-/// Fields of target and source.
-pub(super) const TARGET_AND_SOURCE: &[Field] = &[
-    Field::new(
-        "t1_s",
-        Kind::Number(Range::within(0.0, f64::INFINITY)),
-        "from when on echoes are looked for (s)",
-    ),
-    Field::new(
-        "target.x_min_m",
-        Kind::Number(Range::ANY),
-        "left side of the target (m)",
-    ),
-    Field::new(
-        "target.x_max_m",
-        Kind::Number(Range::ANY),
-        "right side of the target (m)",
-    ),
-    Field::new(
-        "target.depth_m",
-        Kind::Number(Range::POSITIVE),
-        "depth of the target below the surface y = 0 (m)",
-    ),
-    Field::new("source.x_m", Kind::Number(Range::ANY), "where it acts (m)"),
-    Field::new("source.y_m", Kind::Number(Range::ANY), "where it acts (m)"),
-    Field::new(
-        "source.direction",
-        Kind::Word(&["vertical", "horizontal"]),
-        "a positive force acts downward or to the right",
-    ),
-    Field::new(
-        "source.wavelet",
-        Kind::Word(&["sine", "half-sine", "sine-squared", "ricker"]),
-        "shape of the force over time",
-    ),
-    Field::new(
-        "source.frequency_Hz",
-        Kind::Number(Range::POSITIVE),
-        "its frequency f; sine lasts 1/f, half-sine and sine-squared 1/(2f) (Hz)",
-    ),
-    Field::new(
-        "source.amplitude_N_m",
-        Kind::Number(Range::POSITIVE),
-        "largest force per metre of thickness (N/m)",
-    ),
-    Field::new(
-        "source.t0_s",
-        Kind::Number(Range::POSITIVE),
-        "centre of the Ricker wavelet, which lasts 2 t0 (s)",
-    ),
-];
 
 /// Discretisation, point mode, duration.
 pub(super) const PROFILES: &[Overlay] = &[

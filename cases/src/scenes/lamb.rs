@@ -1,0 +1,200 @@
+//! lamb: a line force on an elastic half-space, against the closed form (Lamb 1904).
+//!
+//! ```text
+//!  -100   source                R1                    1000   x (m)
+//!    |------v--------------------o----------------------|  y = 0: free
+//!    |               o R2                               |
+//!    |                                                  |  left, right, bottom:
+//!    |                                           o R3   |  extended (the solver against Lamb) |
+//!    |      o R4                                        |  fixed | dashpot | damping layer |
+//!    |__________________________________________________|  true perfectly matched layer
+//!                                                           y = -700
+//! ```
+//!
+//! Lamb 1904, Phil. Trans. R. Soc. A 203, solved by the contour of Cagniard 1939 and de Hoop 1960. The
+//! material is that of `point-source` (K25 3.1), whose certified reference cannot see what it shares
+//! with the solver: the scheme and the mesh. Lamb's solution shares nothing with it.
+//! - A force of 1 N/m moves nothing visibly: the problem is linear, and moving points test their
+//!   transfer alone.
+//! - The step is 0.0005 s per metre of cell unless it is given, so that space and time are refined
+//!   together.
+//! - Extended sides get as much material as this source needs until the end of the run.
+
+mod exact;
+mod values;
+
+use crate::certified::causality::{serves_until, with_buffers};
+use crate::checks::Checks;
+use crate::half_space::{Source, TARGET_AND_SOURCE, TargetSpec};
+use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
+use crate::spec::*;
+use anechoic_solver::geometry::fitted_cell;
+use anechoic_solver::probe::Probes;
+use anechoic_solver::problem::{BasisKind, Problem, Scheme};
+use serde::{Deserialize, Serialize};
+
+/// The scene; `Default` holds its own values.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Lamb {
+    /// Shape functions.
+    pub basis: BasisKind,
+    /// From when on echoes are looked for (s).
+    pub t1_s: f64,
+    /// The body: source and receivers with a margin.
+    pub target: TargetSpec,
+    /// Background grid.
+    pub grid: GridSpec,
+    /// Time integration; the step defaults to 0.0005 s per metre of cell.
+    pub time: TimeSpec,
+    /// Material points.
+    pub points: PointsSpec,
+    /// Linear solver.
+    pub solver: SolverSpec,
+    /// The half-space.
+    pub material: MaterialSpec,
+    /// The force, on the surface.
+    pub source: Source,
+    /// Anywhere in the body but at the source.
+    pub receivers: Vec<ReceiverSpec>,
+    /// Sides; the method under test is left, right and at the bottom.
+    pub boundary: BoundarySpec,
+}
+
+impl Default for Lamb {
+    fn default() -> Self {
+        toml::from_str(values::VALUES).expect("the scene's own values are a scene")
+    }
+}
+
+/// The registry's entry.
+pub static INFO: SceneInfo = SceneInfo {
+    name: "lamb",
+    title: "a line force on an elastic half-space, against Lamb's closed form",
+    summary: "A short force on the surface of a half-space sends out compressional, shear and surface waves. Lamb's solution says what every receiver feels at every time, so it judges both: the solver, on a mesh so large that nothing comes back, and boundary methods on a small one.",
+    source: "Lamb 1904 (doi 10.1098/rsta.1904.0013); material of K25, section 3.1",
+    fields: &[NUMERICS, TARGET_AND_SOURCE, ELASTIC, PROBES_AND_SIDES],
+    profiles: values::PROFILES,
+    presets: values::PRESETS,
+    methods: values::METHODS,
+    ablation: &[],
+    ledger: &[],
+    standard: "fixed",
+    defaults: scene::defaults::<Lamb>,
+    build: scene::build::<Lamb>,
+};
+
+/// Time step per metre of cell (s/m): a Courant number of 0.55 of the compressional wave of the
+/// scene's own material.
+const STEP_PER_METRE: f64 = 0.0005;
+
+/// Energies in a run: enough for pictures.
+const ENERGIES: f64 = 200.0;
+
+impl Lamb {
+    /// Longest edge of the cells in use (m).
+    fn cell(&self) -> f64 {
+        let edges = fitted_cell(&self.target.body(), self.grid.h_m);
+        edges[0].max(edges[1])
+    }
+
+    /// Time step (s).
+    fn dt(&self) -> f64 {
+        self.time.dt_s.unwrap_or(STEP_PER_METRE * self.cell())
+    }
+}
+
+impl Scene for Lamb {
+    fn problem(&self) -> Problem<2> {
+        let end = self.time.end_s;
+        let steps = end / self.dt();
+        let problem = Problem {
+            target: self.target.body(),
+            cell_size: self.grid.h_m,
+            basis: self.basis,
+            scheme: self.time.scheme,
+            dt: self.dt(),
+            end_time: end,
+            point_mode: self.points.mode,
+            transfer: self.points.transfer,
+            points_per_cell: self.points.per_cell,
+            material: self.material.elastic(),
+            sides: self.boundary.sides(),
+            drives: vec![self.source.force()],
+            probes: Probes {
+                receivers: self.receivers.iter().map(ReceiverSpec::probe).collect(),
+                lines: Vec::new(),
+                snapshot_times: vec![0.5 * end, end],
+                energy_every: Some((steps / ENERGIES).ceil().max(1.0) as usize),
+            },
+            solver: self.solver.kind,
+            rel_tol: self.solver.rel_tol,
+        };
+        with_buffers(&problem, 1.0)
+    }
+
+    fn boundary(&self) -> &BoundarySpec {
+        &self.boundary
+    }
+
+    fn check(&self, checks: &mut Checks<'_>) {
+        let body = self.target.body();
+        self.target.check(checks);
+        checks.layers(&self.boundary, self.target.size());
+        checks.points(&self.points);
+        checks.receivers(&self.receivers, &body);
+        self.source.check(checks, &body, self.time.end_s);
+        checks.require(self.source.y_m == 0.0, "source.y_m", || {
+            format!(
+                "{} m is not on the surface, where Lamb's force acts; allowed: 0",
+                self.source.y_m
+            )
+        });
+        for (index, receiver) in self.receivers.iter().enumerate() {
+            let place = [receiver.x_m, receiver.y_m];
+            let apart = place != [self.source.x_m, self.source.y_m];
+            checks.require(apart, &format!("receivers[{index}].x_m"), || {
+                format!(
+                    "receiver {} is at the force, where the displacement has no limit; move it away",
+                    receiver.name
+                )
+            });
+        }
+        checks.step(self.dt(), self.time.end_s);
+        checks.require(self.t1_s < self.time.end_s, "t1_s", || {
+            format!(
+                "no time is left for echoes: the run ends at time.end_s = {} s",
+                self.time.end_s
+            )
+        });
+        checks.require(self.time.scheme == Scheme::Newmark, "time.scheme", || {
+            "a pulse is lost without inertia; allowed: \"newmark\"".into()
+        });
+    }
+
+    fn pulse_amplitude(&self) -> Option<f64> {
+        None
+    }
+
+    fn windows(&self) -> Vec<Window> {
+        let window = |receiver: &ReceiverSpec| Window {
+            receiver: receiver.name.clone(),
+            label: String::new(),
+            from_s: self.t1_s,
+            to_s: None,
+            stated_by: None,
+        };
+        self.receivers.iter().map(window).collect()
+    }
+
+    fn references(&self, times: &[f64]) -> Result<Vec<Reference>, String> {
+        exact::references(self, times)
+    }
+
+    fn claims(&self) -> Vec<SceneClaim> {
+        exact::claims(self)
+    }
+
+    fn serves_until_s(&self) -> Option<f64> {
+        serves_until(&self.problem())
+    }
+}
