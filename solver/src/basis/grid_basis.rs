@@ -10,8 +10,10 @@
 //! The folded functions are a partition of unity, reproduce linear fields, stay positive inside and
 //! are 1 and 0 at the end itself, so that what holds or drives the nodes of a side holds or drives the
 //! side. Frozen material ends where its grid ends; a free side of moving material has empty cells
-//! beyond it, and its functions are whole.
+//! beyond it, and its functions are whole, but that nodes to which points give next to nothing get
+//! nothing: see [`super::faint`].
 
+use super::faint::Faint;
 use super::{Discretisation, Sample};
 use crate::grid::Grid;
 use crate::linear::block_matrix::{BlockMatrix, Pattern, add_into};
@@ -114,6 +116,7 @@ fn evaluate<const D: usize>(
 pub struct GridDiscretisation<B, const D: usize> {
     grid: Grid<D>,
     basis: B,
+    faint: Faint,
     pattern: Arc<Pattern>,
     nodes: Vec<u32>,
     values: Vec<f64>,
@@ -126,12 +129,14 @@ impl<B: Basis, const D: usize> GridDiscretisation<B, D> {
     /// Nodes that a point sees.
     const NODES: usize = B::WIDTH.pow(D as u32);
 
-    /// On `grid`, which has at least as many nodes along each axis as a point sees; without points yet.
-    pub fn new(grid: Grid<D>, basis: B) -> Self {
+    /// On `grid`, which has at least as many nodes along each axis as a point sees, its full cells with
+    /// `per_cell` points; without points yet.
+    pub fn new(grid: Grid<D>, basis: B, per_cell: usize) -> Self {
         let pattern = Arc::new(neighbours(&grid, Self::REACH));
         GridDiscretisation {
             grid,
             basis,
+            faint: Faint::new(per_cell),
             pattern,
             nodes: Vec::new(),
             values: Vec::new(),
@@ -207,6 +212,14 @@ impl<B: Basis, const D: usize> Discretisation<D> for GridDiscretisation<B, D> {
                 return Err(p);
             }
         }
+        if B::WIDTH == 3 {
+            let moved = ..places.len() * w;
+            self.faint
+                .find(self.grid.node_count(), &self.nodes, &self.values);
+            let (nodes, values) = (&self.nodes[moved], &mut self.values[moved]);
+            self.faint
+                .unburden(nodes, values, &mut self.gradients[moved]);
+        }
         Ok(())
     }
 
@@ -223,11 +236,14 @@ impl<B: Basis, const D: usize> Discretisation<D> for GridDiscretisation<B, D> {
             sample.weights.as_mut_slice(),
             gradients.as_mut_slice(),
         );
-        if evaluate(&self.grid, B::WIDTH, along, x, stencil) {
-            sample
-        } else {
-            Sample::default()
+        if !evaluate(&self.grid, B::WIDTH, along, x, stencil) {
+            return Sample::default();
         }
+        if B::WIDTH == 3 {
+            let weights = &mut sample.weights;
+            self.faint.unburden(&sample.nodes, weights, &mut gradients);
+        }
+        sample
     }
 
     fn scatter_scalar(&self, block: Range<usize>, values: &[f64], out: &mut [f64]) {

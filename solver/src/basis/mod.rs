@@ -4,6 +4,7 @@
 //! made once a block and the loops within are compiled for it.
 
 pub mod bspline;
+mod faint;
 pub mod gimp;
 pub mod grid_basis;
 pub mod linear;
@@ -146,10 +147,18 @@ pub fn on_grid<const D: usize>(
     grid: &Grid<D>,
     per_axis: usize,
 ) -> Box<dyn Discretisation<D>> {
-    let grid = grid.clone();
+    let (grid, per_cell) = (grid.clone(), per_axis.pow(D as u32));
     match kind {
-        BasisKind::Linear => Box::new(GridDiscretisation::new(grid, linear::Linear)),
-        BasisKind::Gimp => Box::new(GridDiscretisation::new(grid, gimp::Gimp::new(per_axis))),
-        BasisKind::Bspline => Box::new(GridDiscretisation::new(grid, bspline::QuadraticBSpline)),
+        BasisKind::Linear => Box::new(GridDiscretisation::new(grid, linear::Linear, per_cell)),
+        BasisKind::Gimp => Box::new(GridDiscretisation::new(
+            grid,
+            gimp::Gimp::new(per_axis),
+            per_cell,
+        )),
+        BasisKind::Bspline => Box::new(GridDiscretisation::new(
+            grid,
+            bspline::QuadraticBSpline,
+            per_cell,
+        )),
     }
 }

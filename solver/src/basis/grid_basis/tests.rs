@@ -28,7 +28,7 @@ fn cloud<B: Basis>(basis: B) -> Cloud<B> {
             ]
         })
         .collect();
-    let mut disc = GridDiscretisation::new(grid, basis);
+    let mut disc = GridDiscretisation::new(grid, basis, 4);
     disc.place(&places).unwrap();
     (disc, places)
 }
