@@ -31,7 +31,6 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
     let mut first_kept = points.len();
     let mut movable = 0;
     let mut displacement = None;
-    let mut replaced_displacement = None;
     let mut inertia: Option<Vec<Vector<D>>> = None;
     for (owner, range) in &ranges {
         if let Owner::Layer(_, layer) = owner {
@@ -70,9 +69,6 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
         }
         if let Some(how) = parts.displacement {
             displacement = Some(how);
-            if how == DisplacementTransfer::Replaced {
-                replaced_displacement = Some(layer);
-            }
         }
     }
     points.inertia = inertia;
@@ -101,7 +97,7 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
         } else {
             first_kept
         },
-        replaced_displacement,
+        replaced_displacement: displacement == Some(DisplacementTransfer::Replaced),
         transfer: problem.transfer,
         consistent: problem.mass == MassKind::Consistent,
     })

@@ -58,8 +58,8 @@ pub struct Parts<const D: usize> {
     pub movable: Option<usize>,
     /// From here on points rest and their nodes keep the motion.
     pub first_kept: usize,
-    /// Points that take their displacement from the nodes in every step (K25 (18)).
-    pub replaced_displacement: Option<Range<usize>>,
+    /// Do points take their displacement from the nodes in every step (K25 (18)), or by increments?
+    pub replaced_displacement: bool,
     /// Transfer between points and nodes.
     pub transfer: Transfer,
     /// Linear solver.
@@ -89,7 +89,7 @@ pub struct Model<const D: usize> {
     /// Linear solver.
     pub solver: LinearSolver<D>,
     pub(super) movable: usize,
-    pub(super) replaced_displacement: Option<Range<usize>>,
+    pub(super) replaced_displacement: bool,
     pub(super) kept: KeptNodes<D>,
     pub(super) matrices: Matrices<D>,
     pub(super) moment: Moment,
