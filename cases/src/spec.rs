@@ -4,7 +4,7 @@ use crate::field::{Field, Kind, Range};
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::{LineProbe, Receiver};
-use anechoic_solver::problem::{Aabb, Elastic, PointMode, Scheme, SolverKind, Transfer};
+use anechoic_solver::problem::{Aabb, Elastic, MassKind, PointMode, Scheme, SolverKind, Transfer};
 use serde::{Deserialize, Serialize};
 
 /// Background grid.
@@ -63,6 +63,9 @@ impl BodySpec {
 pub struct TimeSpec {
     /// Scheme.
     pub scheme: Scheme,
+    /// How the inertia of points reaches the nodes.
+    #[serde(default)]
+    pub mass: MassKind,
     /// Time step (s); left out, the scene derives it from the cell size.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dt_s: Option<f64>,
@@ -180,7 +183,7 @@ impl BoundarySpec {
 pub const NUMERICS: &[Field] = &[
     Field::new(
         "basis",
-        Kind::Word(&["linear"]),
+        Kind::Word(&["linear", "gimp", "bspline"]),
         "shape functions on the grid",
     ),
     Field::new(
@@ -192,6 +195,11 @@ pub const NUMERICS: &[Field] = &[
         "time.scheme",
         Kind::Word(&["newmark", "quasi-static"]),
         "time integration",
+    ),
+    Field::new(
+        "time.mass",
+        Kind::Word(&["lumped", "consistent"]),
+        "how the inertia of points reaches the nodes",
     ),
     Field::new(
         "time.dt_s",

@@ -6,7 +6,7 @@ use anechoic_solver::linear::Moment;
 use anechoic_solver::physics::model::Model;
 use anechoic_solver::probe::Probes;
 use anechoic_solver::problem::{
-    Aabb, BasisKind, Drive, Elastic, PointMode, Problem, Scheme, SolverKind, Transfer,
+    Aabb, BasisKind, Drive, Elastic, MassKind, PointMode, Problem, Scheme, SolverKind, Transfer,
 };
 use anechoic_solver::setup;
 use anechoic_solver::time::newmark::Newmark;
@@ -26,6 +26,7 @@ fn problem(point_mode: PointMode, transfer: Transfer, layer: &str, thickness: f6
         cell_size: 20.0,
         basis: BasisKind::Linear,
         scheme: Scheme::Newmark,
+        mass: MassKind::Lumped,
         dt: DT,
         end_time: 10.0,
         point_mode,

@@ -4,7 +4,7 @@
 use crate::boundary::{self, Assigned, End, LayerPoints};
 use crate::error::SolverError;
 use crate::grid::Grid;
-use crate::problem::{Aabb, PointMode, Problem, Side, Transfer};
+use crate::problem::{Aabb, BasisKind, PointMode, Problem, Side, Transfer};
 use crate::tensor::Vector;
 
 /// Free surfaces of moving material get so many empty cells to move into.
@@ -53,6 +53,7 @@ impl<const D: usize> Geometry<D> {
         }
         check_size(problem, &material_box, &h)?;
         check_corners(&assigned)?;
+        check_width(problem, &material_box, &h)?;
         let grid = Grid {
             origin: std::array::from_fn(|a| material_box.lower[a] - h[a] * margin[a][0] as f64),
             h,
@@ -155,6 +156,25 @@ fn check_size<const D: usize>(
         return Err(setup_error("time.dt_s", reason));
     }
     Ok(())
+}
+
+/// Wide functions need two cells along each axis.
+fn check_width<const D: usize>(
+    problem: &Problem<D>,
+    material: &Aabb<D>,
+    h: &Vector<D>,
+) -> Result<(), SolverError> {
+    let narrow = (0..D).find(|&a| cells_along(material, a, h[a]) < 2);
+    match narrow {
+        Some(axis) if problem.basis != BasisKind::Linear => {
+            let reason = format!(
+                "wider than the body's single cell along {}; use \"linear\" or smaller cells",
+                ["x", "y", "z"][axis.min(2)]
+            );
+            Err(setup_error("basis", reason))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Layers with kernels of their own cannot share a corner with each other.

@@ -66,6 +66,10 @@ impl Side {
 pub enum BasisKind {
     /// Multilinear, one cell wide.
     Linear,
+    /// Linear functions averaged over the extent of a point (uniform GIMP): smooth across cells' faces.
+    Gimp,
+    /// Quadratic B-splines: smooth across cells' faces, three cells wide.
+    Bspline,
 }
 
 /// Time integration.
@@ -76,6 +80,17 @@ pub enum Scheme {
     Newmark,
     /// Without inertia: equilibrium at each step.
     QuasiStatic,
+}
+
+/// How the inertia of points reaches the nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MassKind {
+    /// Summed to each node.
+    #[default]
+    Lumped,
+    /// Coupling nodes as the shape functions do.
+    Consistent,
 }
 
 /// Whether points move with the material.
@@ -180,6 +195,8 @@ pub struct Problem<const D: usize> {
     pub basis: BasisKind,
     /// Time integration.
     pub scheme: Scheme,
+    /// How the inertia of points reaches the nodes.
+    pub mass: MassKind,
     /// Time step (s).
     pub dt: f64,
     /// End of the run (s).

@@ -20,9 +20,10 @@ pub(crate) struct Sampler<const D: usize> {
     tracers: Vec<Tracer<D>>,
     lines: Vec<Vec<Sample>>,
     snapshots: Vec<f64>,
-    /// The body's nodes: the first and how many along each axis.
+    /// The body's nodes: the first and how many along each axis, and what each place sees.
     first: [usize; D],
     counts: [usize; D],
+    body: Vec<Sample>,
 }
 
 impl<const D: usize> Sampler<D> {
@@ -78,8 +79,22 @@ impl<const D: usize> Sampler<D> {
         let grid = &model.grid;
         let index = |x: f64, a: usize| ((x - grid.origin[a]) / grid.h[a]).round() as usize;
         let first = std::array::from_fn(|a| index(problem.target.lower[a], a));
-        let counts = std::array::from_fn(|a| index(problem.target.upper[a], a) - first[a] + 1);
+        let counts: [usize; D] =
+            std::array::from_fn(|a| index(problem.target.upper[a], a) - first[a] + 1);
+        let shown = match probes.snapshot_times.is_empty() {
+            true => 0,
+            false => counts.iter().product(),
+        };
+        let place = |k: usize| {
+            let mut rest = k;
+            std::array::from_fn(|a| {
+                let along = rest % counts[a];
+                rest /= counts[a];
+                grid.origin[a] + grid.h[a] * (first[a] + along) as f64
+            })
+        };
         Sampler {
+            body: (0..shown).map(|k| model.disc.sample(&place(k))).collect(),
             tracers: tracers.collect(),
             lines: lines.collect(),
             snapshots: probes.snapshot_times.clone(),
@@ -155,7 +170,7 @@ impl<const D: usize> Sampler<D> {
         }
     }
 
-    /// The displacement of the body's nodes.
+    /// The displacement at the places of the body's nodes.
     fn snapshot(&self, model: &Model<D>, t: f64) -> Snapshot {
         let mut counts = [1; 3];
         let (mut origin, mut spacing) = ([0.0; 3], [0.0; 3]);
@@ -164,21 +179,15 @@ impl<const D: usize> Sampler<D> {
             origin[a] = model.grid.origin[a] + model.grid.h[a] * self.first[a] as f64;
             spacing[a] = model.grid.h[a];
         }
-        let total: usize = self.counts.iter().product();
+        let nodes = &model.nodes;
+        let shown = self.body.iter();
+        let fields: Vec<Vector<D>> = shown
+            .map(|sample| sample.interpolate(&nodes.u, &nodes.active))
+            .collect();
         let columns = (0..D).map(|i| Column {
             name: format!("u{}", AXES[i]),
             unit: "m".to_owned(),
-            values: (0..total)
-                .map(|k| {
-                    let mut rest = k;
-                    let index = std::array::from_fn(|a| {
-                        let along = rest % self.counts[a];
-                        rest /= self.counts[a];
-                        self.first[a] + along
-                    });
-                    model.nodes.u[model.grid.node(index)][i]
-                })
-                .collect(),
+            values: fields.iter().map(|u| u[i]).collect(),
         });
         Snapshot {
             time: t,

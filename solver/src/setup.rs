@@ -14,7 +14,7 @@ use crate::physics::bulk::{Carried, Kept};
 use crate::physics::kernel::{NodeTerm, RegionKernel};
 use crate::physics::model::{Model, Parts, Region};
 use crate::points::Points;
-use crate::problem::{Drive, PointMode, Problem, Scheme, SolverKind, Transfer};
+use crate::problem::{Drive, MassKind, PointMode, Problem, Scheme, SolverKind, Transfer};
 use crate::tensor::Vector;
 use std::ops::Range;
 
@@ -31,7 +31,6 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
     let mut first_kept = points.len();
     let mut movable = 0;
     let mut displacement = None;
-    let mut replaced_displacement = None;
     let mut inertia: Option<Vec<Vector<D>>> = None;
     for (owner, range) in &ranges {
         if let Owner::Layer(_, layer) = owner {
@@ -70,9 +69,6 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
         }
         if let Some(how) = parts.displacement {
             displacement = Some(how);
-            if how == DisplacementTransfer::Replaced {
-                replaced_displacement = Some(layer);
-            }
         }
     }
     points.inertia = inertia;
@@ -90,7 +86,7 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
     };
     Model::new(Parts {
         solver: LinearSolver::new(kind, problem.rel_tol, geometry.grid.node_count()),
-        disc: on_grid(problem.basis, &geometry.grid),
+        disc: on_grid(problem.basis, &geometry.grid, geometry.per_axis),
         grid: geometry.grid,
         points,
         regions,
@@ -101,8 +97,9 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
         } else {
             first_kept
         },
-        replaced_displacement,
+        replaced_displacement: displacement == Some(DisplacementTransfer::Replaced),
         transfer: problem.transfer,
+        consistent: problem.mass == MassKind::Consistent,
     })
 }
 
@@ -231,13 +228,11 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
     } else {
         2 * size_of::<[[f64; D]; D]>()
     };
-    let disc = on_grid(
-        problem.basis,
-        &Grid {
-            cells: [1; D],
-            ..geometry.grid.clone()
-        },
-    );
+    let few_cells = Grid {
+        cells: [2; D],
+        ..geometry.grid.clone()
+    };
+    let disc = on_grid(problem.basis, &few_cells, geometry.per_axis);
     let layers = |l: &Layout| l.outside + l.inside;
     let methods = geometry.assigned.iter().map(|a| match layers(&a.layout) {
         0.0 => format!("{}: {}", a.side.name(), a.method.method),
@@ -250,8 +245,10 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
     let cell = geometry.grid.h.map(|h| format!("{h:.6}")).join(" x ");
     let basis = format!("{} basis on cells of {cell} m", disc.name());
     let mut features = vec![basis, scheme.to_lowercase()];
+    if problem.mass == MassKind::Consistent {
+        features.push("consistent masses".to_owned());
+    }
     features.extend(methods);
-    let neighbours = 3usize.pow(D as u32);
     let matrices = if problem.transfer == Transfer::Keep {
         2
     } else {
@@ -265,6 +262,6 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
         unknowns: nodes * D,
         steps: problem.steps(),
         bytes_per_point: sample.bytes_per_point() + stress + disc.bytes_per_point(),
-        bytes_per_node: neighbours * block + 16 * size_of::<Vector<D>>(),
+        bytes_per_node: disc.couplings() * block + 16 * size_of::<Vector<D>>(),
     })
 }

@@ -10,7 +10,8 @@ use anechoic_solver::Monitor;
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::probe::{Probes, Receiver};
 use anechoic_solver::problem::{
-    Aabb, BasisKind, Drive, Elastic, PointMode, Problem, Scheme, Side, SolverKind, Transfer,
+    Aabb, BasisKind, Drive, Elastic, MassKind, PointMode, Problem, Scheme, Side, SolverKind,
+    Transfer,
 };
 use anechoic_solver::record::Record;
 use anechoic_solver::wavelet::{Pulse, Wavelet};
@@ -46,6 +47,7 @@ pub fn block(transfer: Transfer, point_mode: PointMode) -> Problem<2> {
         cell_size: 0.5,
         basis: BasisKind::Linear,
         scheme: Scheme::Newmark,
+        mass: MassKind::Lumped,
         dt: 0.02,
         end_time: 4.0,
         point_mode,

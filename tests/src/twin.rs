@@ -7,7 +7,8 @@
 use anechoic_solver::basis::Discretisation;
 use anechoic_solver::error::SolverError;
 use anechoic_solver::linear::block_matrix::BlockMatrix;
-use anechoic_solver::physics::kernel::{Lumped, RegionKernel, Stiffness, Trial};
+use anechoic_solver::physics::inertia::PointInertia;
+use anechoic_solver::physics::kernel::{RegionKernel, Stiffness, Trial};
 use anechoic_solver::points::Points;
 use anechoic_solver::problem::Elastic;
 use anechoic_solver::tensor::{Matrix, Tensor4, Vector};
@@ -141,18 +142,16 @@ impl Twin {
 }
 
 impl RegionKernel<2> for Twin {
-    fn lump(&self, disc: &dyn Discretisation<2>, points: &Points<2>, out: &mut Lumped<2>) {
-        for (q, p) in self.range.clone().enumerate() {
-            let [b1, b2] = self.beta[q];
+    fn inertia(&self, block: Range<usize>, out: &mut PointInertia<2>) {
+        let own = block.start - self.range.start..block.end - self.range.start;
+        for [b1, b2] in &self.beta[own] {
             let corner = if self.broken == Broken::NoCornerTerm {
                 0.0
             } else {
                 b1 * b2
             };
-            let mass = &points.mass[p..p + 1];
-            disc.scatter_vector(p..p + 1, mass, &[[1.0; 2]], &mut out.mass);
-            disc.scatter_vector(p..p + 1, mass, &[[b1 + b2; 2]], out.viscous_mut());
-            disc.scatter_vector(p..p + 1, mass, &[[corner; 2]], out.stiffness_mut());
+            out.viscous.push([b1 + b2; 2]);
+            out.stiffness.push([corner; 2]);
         }
     }
 

@@ -178,3 +178,22 @@ fn the_published_layer_without_damping_grows_in_a_run() {
     let [low, _] = growth(&solved(&problem));
     assert!(low > 0.0);
 }
+
+#[test]
+fn the_published_transfer_filters_body_and_layer_alike() {
+    let run = |side: SideMethod| {
+        let mut problem = half_space(side, PointMode::Frozen, Transfer::Flip);
+        problem.end_time = 3.5;
+        solved(&problem)
+    };
+    let echo = |how: &str| {
+        let layer = SideMethod::new("pml-stretched").with("thickness_m", 600.0);
+        let record = run(layer.with_choice("displacement", how));
+        worst_echo(&record, &run(SideMethod::new("extended")))
+    };
+    let (replaced, incremental) = (echo("replaced"), echo("incremental"));
+    println!(
+        "echo with displacements from the nodes {replaced:.4}, by increments {incremental:.4}"
+    );
+    assert!(replaced < incremental);
+}

@@ -6,7 +6,7 @@
 
 use super::causality::EXTENDED;
 use anechoic_solver::boundary::{SideMethod, Value as Param};
-use anechoic_solver::problem::{Drive, Problem, Side};
+use anechoic_solver::problem::{Drive, MassKind, Problem, Side};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use toml::{Table, Value};
@@ -22,6 +22,10 @@ pub fn table(problem: &Problem<2>) -> Table {
     put("cell_m", problem.cell_size.into());
     put("basis", word(&problem.basis));
     put("scheme", word(&problem.scheme));
+    // what references made before there was a choice were made with is not said
+    if problem.mass != MassKind::default() {
+        put("mass", word(&problem.mass));
+    }
     put("dt_s", problem.dt.into());
     put("points", word(&problem.point_mode));
     put("transfer", word(&problem.transfer));

@@ -117,6 +117,7 @@ impl Scene for Compression1d {
             cell_size: self.grid.h_m,
             basis: self.basis,
             scheme: self.time.scheme,
+            mass: self.time.mass,
             dt: self.dt(),
             end_time: self.time.end_s,
             point_mode: self.points.mode,

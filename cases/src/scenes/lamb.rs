@@ -107,6 +107,7 @@ impl Scene for Lamb {
             cell_size: self.grid.h_m,
             basis: self.basis,
             scheme: self.time.scheme,
+            mass: self.time.mass,
             dt: self.dt(),
             end_time: end,
             point_mode: self.points.mode,

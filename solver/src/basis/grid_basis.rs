@@ -1,61 +1,152 @@
-//! Discretisation by shape functions on the background grid.
+//! Discretisation by shape functions on the background grid: products of functions of one coordinate.
+//!
+//! Wide functions reach over the ends of the grid, where there are no nodes. What they would give to a
+//! node beyond the end goes to the two before it, as if the field went on straight:
+//!
+//! ```text
+//! u_-1 = 2 u_0 - u_1      so      N_0 += 2 N_-1,   N_1 -= N_-1
+//! ```
+//!
+//! The folded functions are a partition of unity, reproduce linear fields, stay positive inside and
+//! are 1 and 0 at the end itself, so that what holds or drives the nodes of a side holds or drives the
+//! side. Frozen material ends where its grid ends; a free side of moving material has empty cells
+//! beyond it, and its functions are whole, but that nodes to which points give next to nothing get
+//! nothing: see [`super::faint`].
 
+use super::faint::Faint;
 use super::{Discretisation, Sample};
 use crate::grid::Grid;
 use crate::linear::block_matrix::{BlockMatrix, Pattern, add_into};
 use crate::tensor::{Matrix, Tensor4, Vector, dot};
-use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Shape functions on a grid.
+/// Most nodes that a place sees along an axis.
+pub const WIDEST: usize = 3;
+
+/// The nodes that a place sees along an axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Along {
+    /// The first node; may lie one beyond the ends of the grid.
+    pub first: isize,
+    /// Values of the functions of this node and the next ones.
+    pub values: [f64; WIDEST],
+    /// Their derivatives (1 a cell).
+    pub slopes: [f64; WIDEST],
+}
+
+/// Shape functions of one coordinate, alike at all nodes.
 pub trait Basis: Send + 'static {
     /// Name as in scenes.
     const NAME: &'static str;
-    /// Nodes couple over so many cells.
-    const REACH: usize;
+    /// Nodes along an axis that a point sees.
+    const WIDTH: usize;
 
-    /// Nodes that a point sees.
-    fn width(dimension: usize) -> usize;
+    /// At `s`, in cells from the grid's first node, of an axis of `cells` cells: what a point sees.
+    fn point(&self, s: f64, cells: usize) -> Along;
 
-    /// Nodes, values and gradients at `x`; false when `x` is outside the grid.
-    fn evaluate<const D: usize>(
-        grid: &Grid<D>,
-        x: &Vector<D>,
-        nodes: &mut [u32],
-        values: &mut [f64],
-        gradients: &mut [Vector<D>],
-    ) -> bool;
+    /// What a place without extent sees.
+    fn place(&self, s: f64, cells: usize) -> Along {
+        self.point(s, cells)
+    }
+}
+
+/// Gives what belongs to nodes beyond the ends of an axis of `cells` cells to those within.
+#[inline]
+fn fold(mut along: Along, width: usize, cells: usize) -> Along {
+    if along.first < 0 {
+        for n in [&mut along.values, &mut along.slopes] {
+            *n = [n[1] + 2.0 * n[0], n[2] - n[0], 0.0];
+        }
+        along.first = 0;
+    } else if along.first + width as isize - 1 > cells as isize {
+        for n in [&mut along.values, &mut along.slopes] {
+            *n = [0.0, n[0] - n[2], n[1] + 2.0 * n[2]];
+        }
+        along.first -= 1;
+    }
+    along
+}
+
+/// Nodes, values and gradients at `x`, products of what `along` gives for each axis; false when `x`
+/// is outside the grid.
+#[inline]
+fn evaluate<const D: usize>(
+    grid: &Grid<D>,
+    width: usize,
+    along: impl Fn(f64, usize) -> Along,
+    x: &Vector<D>,
+    stencil: (&mut [u32], &mut [f64], &mut [Vector<D>]),
+) -> bool {
+    let (nodes, values, gradients) = stencil;
+    let mut axes = [Along {
+        first: 0,
+        values: [0.0; WIDEST],
+        slopes: [0.0; WIDEST],
+    }; D];
+    for a in 0..D {
+        let s = (x[a] - grid.origin[a]) / grid.h[a];
+        if !(s >= 0.0 && s <= grid.cells[a] as f64) {
+            return false;
+        }
+        axes[a] = fold(along(s, grid.cells[a]), width, grid.cells[a]);
+    }
+    for (k, ((node, value), gradient)) in nodes.iter_mut().zip(values).zip(gradients).enumerate() {
+        let mut rest = k;
+        let mut index = [0; D];
+        *value = 1.0;
+        *gradient = grid.h.map(|h| 1.0 / h);
+        for a in 0..D {
+            let i = rest % width;
+            rest /= width;
+            index[a] = axes[a].first as usize + i;
+            let n = axes[a].values[i];
+            *value *= n;
+            for (b, g) in gradient.iter_mut().enumerate() {
+                *g *= if a == b { axes[a].slopes[i] } else { n };
+            }
+        }
+        *node = grid.node(index) as u32;
+    }
+    true
 }
 
 /// Keeps nodes, values and gradients of all points, `width` a point.
 #[derive(Debug)]
 pub struct GridDiscretisation<B, const D: usize> {
     grid: Grid<D>,
+    basis: B,
+    faint: Faint,
     pattern: Arc<Pattern>,
     nodes: Vec<u32>,
     values: Vec<f64>,
     gradients: Vec<Vector<D>>,
-    basis: PhantomData<B>,
 }
 
 impl<B: Basis, const D: usize> GridDiscretisation<B, D> {
-    /// On `grid`, without points yet.
-    pub fn new(grid: Grid<D>) -> Self {
-        let pattern = Arc::new(neighbours(&grid, B::REACH));
+    /// Nodes couple over so many cells.
+    const REACH: usize = B::WIDTH - 1;
+    /// Nodes that a point sees.
+    const NODES: usize = B::WIDTH.pow(D as u32);
+
+    /// On `grid`, which has at least as many nodes along each axis as a point sees, its full cells with
+    /// `per_cell` points; without points yet.
+    pub fn new(grid: Grid<D>, basis: B, per_cell: usize) -> Self {
+        let pattern = Arc::new(neighbours(&grid, Self::REACH));
         GridDiscretisation {
             grid,
+            basis,
+            faint: Faint::new(per_cell),
             pattern,
             nodes: Vec::new(),
             values: Vec::new(),
             gradients: Vec::new(),
-            basis: PhantomData,
         }
     }
 
     #[inline]
     fn stencil(&self, p: usize) -> (&[u32], &[f64], &[Vector<D>]) {
-        let w = B::width(D);
+        let w = Self::NODES;
         let range = p * w..(p + 1) * w;
         (
             &self.nodes[range.clone()],
@@ -97,11 +188,11 @@ impl<B: Basis, const D: usize> Discretisation<D> for GridDiscretisation<B, D> {
     }
 
     fn elimination_order(&self) -> Vec<u32> {
-        self.grid.nested_dissection(B::REACH)
+        self.grid.nested_dissection(Self::REACH)
     }
 
     fn place(&mut self, places: &[Vector<D>]) -> Result<(), usize> {
-        let w = B::width(D);
+        let w = Self::NODES;
         self.nodes.resize(places.len() * w, 0);
         self.values.resize(places.len() * w, 0.0);
         self.gradients.resize(places.len() * w, [0.0; D]);
@@ -109,35 +200,48 @@ impl<B: Basis, const D: usize> Discretisation<D> for GridDiscretisation<B, D> {
     }
 
     fn replace(&mut self, places: &[Vector<D>]) -> Result<(), usize> {
-        let w = B::width(D);
+        let w = Self::NODES;
         let stencils = self
             .nodes
             .chunks_exact_mut(w)
             .zip(self.values.chunks_exact_mut(w))
             .zip(self.gradients.chunks_exact_mut(w));
         for (p, (((nodes, values), gradients), x)) in stencils.zip(places).enumerate() {
-            if !B::evaluate(&self.grid, x, nodes, values, gradients) {
+            let along = |s, cells| self.basis.point(s, cells);
+            if !evaluate(&self.grid, B::WIDTH, along, x, (nodes, values, gradients)) {
                 return Err(p);
             }
+        }
+        if B::WIDTH == 3 {
+            let moved = ..places.len() * w;
+            self.faint
+                .find(self.grid.node_count(), &self.nodes, &self.values);
+            let (nodes, values) = (&self.nodes[moved], &mut self.values[moved]);
+            self.faint
+                .unburden(nodes, values, &mut self.gradients[moved]);
         }
         Ok(())
     }
 
     fn sample(&self, x: &Vector<D>) -> Sample {
-        let w = B::width(D);
+        let w = Self::NODES;
         let mut sample = Sample {
             nodes: vec![0; w],
             weights: vec![0.0; w],
         };
         let mut gradients = vec![[0.0; D]; w];
-        if !B::evaluate(
-            &self.grid,
-            x,
-            &mut sample.nodes,
-            &mut sample.weights,
-            &mut gradients,
-        ) {
+        let along = |s, cells| self.basis.place(s, cells);
+        let stencil = (
+            sample.nodes.as_mut_slice(),
+            sample.weights.as_mut_slice(),
+            gradients.as_mut_slice(),
+        );
+        if !evaluate(&self.grid, B::WIDTH, along, x, stencil) {
             return Sample::default();
+        }
+        if B::WIDTH == 3 {
+            let weights = &mut sample.weights;
+            self.faint.unburden(&sample.nodes, weights, &mut gradients);
         }
         sample
     }
@@ -237,6 +341,31 @@ impl<B: Basis, const D: usize> Discretisation<D> for GridDiscretisation<B, D> {
         }
     }
 
+    fn scatter_mass(&self, block: Range<usize>, weights: &[Vector<D>], out: &mut BlockMatrix<D>) {
+        let w = Self::NODES;
+        let mut local = std::mem::take(&mut out.scratch);
+        local.resize(w * w, [[0.0; D]; D]);
+        let mut last = block.start;
+        for (p, weight) in block.clone().zip(weights) {
+            let (nodes, n, _) = self.stencil(p);
+            if nodes != self.stencil(last).0 {
+                self.flush(self.stencil(last).0, &mut local, out);
+            }
+            last = p;
+            for (i, ni) in n.iter().enumerate() {
+                for (j, nj) in n.iter().enumerate() {
+                    for (k, weight) in weight.iter().enumerate() {
+                        local[i * w + j][k][k] += weight * ni * nj;
+                    }
+                }
+            }
+        }
+        if !block.is_empty() {
+            self.flush(self.stencil(last).0, &mut local, out);
+        }
+        out.scratch = local;
+    }
+
     fn scatter_tangent(
         &self,
         block: Range<usize>,
@@ -244,7 +373,7 @@ impl<B: Basis, const D: usize> Discretisation<D> for GridDiscretisation<B, D> {
         moduli: &[Tensor4<D>],
         out: &mut BlockMatrix<D>,
     ) {
-        let w = B::width(D);
+        let w = Self::NODES;
         let mut local = std::mem::take(&mut out.scratch);
         local.resize(w * w, [[0.0; D]; D]);
         let mut last = block.start;
@@ -272,8 +401,12 @@ impl<B: Basis, const D: usize> Discretisation<D> for GridDiscretisation<B, D> {
         out.scratch = local;
     }
 
+    fn couplings(&self) -> usize {
+        (2 * Self::REACH + 1).pow(D as u32)
+    }
+
     fn bytes_per_point(&self) -> usize {
-        B::width(D) * (size_of::<u32>() + size_of::<f64>() + size_of::<Vector<D>>())
+        Self::NODES * (size_of::<u32>() + size_of::<f64>() + size_of::<Vector<D>>())
     }
 }
 
@@ -324,103 +457,4 @@ fn neighbours<const D: usize>(grid: &Grid<D>, reach: usize) -> Pattern {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::linear::Linear;
-    use super::*;
-
-    fn cloud() -> (GridDiscretisation<Linear, 2>, Vec<Vector<2>>) {
-        let grid = Grid {
-            origin: [-1.0, 0.5],
-            h: [0.5; 2],
-            cells: [4, 3],
-        };
-        let places: Vec<Vector<2>> = (0..40)
-            .map(|k| {
-                let k = k as f64;
-                [
-                    -1.0 + 2.0 * (0.37 * k).fract(),
-                    0.5 + 1.5 * (0.61 * k + 0.1).fract(),
-                ]
-            })
-            .collect();
-        let mut disc = GridDiscretisation::new(grid);
-        disc.place(&places).unwrap();
-        (disc, places)
-    }
-
-    #[test]
-    fn gradient_of_a_linear_field_is_exact_on_any_cloud() {
-        let (disc, places) = cloud();
-        let field: Vec<Vector<2>> = (0..disc.node_count())
-            .map(|n| disc.grid.node_place(n))
-            .map(|x| [1.0 + 2.0 * x[0] - 3.0 * x[1], 0.5 * x[0] + 4.0 * x[1]])
-            .collect();
-        let mut gradients = vec![[[0.0; 2]; 2]; places.len()];
-        let mut values = vec![[0.0; 2]; places.len()];
-        disc.gradient(0..places.len(), &field, &mut gradients);
-        disc.gather(0..places.len(), &field, &mut values);
-        for ((g, v), x) in gradients.iter().zip(&values).zip(&places) {
-            for (got, expected) in g.as_flattened().iter().zip([2.0, -3.0, 0.5, 4.0]) {
-                assert!((got - expected).abs() < 1e-12);
-            }
-            assert!((v[0] - (1.0 + 2.0 * x[0] - 3.0 * x[1])).abs() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn scatters_conserve_mass_and_momentum() {
-        let (disc, places) = cloud();
-        let n = places.len();
-        let mass: Vec<f64> = (0..n).map(|k| 1.0 + 0.1 * k as f64).collect();
-        let v: Vec<Vector<2>> = places.iter().map(|x| [x[1], -x[0]]).collect();
-        let l = vec![[[0.3, -0.7], [0.2, 0.9]]; n];
-        let mut nodal = vec![0.0; disc.node_count()];
-        let mut momentum = vec![[0.0; 2]; disc.node_count()];
-        disc.scatter_scalar(0..n, &mass, &mut nodal);
-        disc.scatter_affine(0..n, &mass, &v, &l, &places, &mut momentum);
-        assert!((nodal.iter().sum::<f64>() - mass.iter().sum::<f64>()).abs() < 1e-11);
-        for i in 0..2 {
-            let nodes: f64 = momentum.iter().map(|p| p[i]).sum();
-            let points: f64 = mass.iter().zip(&v).map(|(m, v)| m * v[i]).sum();
-            assert!((nodes - points).abs() < 1e-11);
-        }
-    }
-
-    #[test]
-    fn tangent_is_the_derivative_of_the_internal_force() {
-        let (disc, places) = cloud();
-        let n = places.len();
-        let volumes: Vec<f64> = (0..n).map(|k| 0.01 * (1 + k % 3) as f64).collect();
-        let mut a: Tensor4<2> = Default::default();
-        for (k, x) in a
-            .as_flattened_mut()
-            .as_flattened_mut()
-            .as_flattened_mut()
-            .iter_mut()
-            .enumerate()
-        {
-            *x = 1.0 + 0.3 * k as f64;
-        }
-        let mut matrix = BlockMatrix::zeros(disc.pattern());
-        disc.scatter_tangent(0..n, &volumes, &vec![a; n], &mut matrix);
-        let u: Vec<Vector<2>> = (0..disc.node_count())
-            .map(|k| [(k as f64).sin(), (1.7 * k as f64).cos()])
-            .collect();
-        let mut g = vec![[[0.0; 2]; 2]; n];
-        disc.gradient(0..n, &u, &mut g);
-        let stress: Vec<Matrix<2>> = g
-            .iter()
-            .map(|g| {
-                std::array::from_fn(|i| {
-                    std::array::from_fn(|j| crate::tensor::contract(&a[i][j], g))
-                })
-            })
-            .collect();
-        let (mut force, mut image) = (vec![[0.0; 2]; u.len()], vec![[0.0; 2]; u.len()]);
-        disc.scatter_stress(0..n, &volumes, &stress, &mut force);
-        matrix.apply(&u, &mut image);
-        for (f, k) in force.iter().zip(&image) {
-            assert!((f[0] - k[0]).abs() < 1e-11 && (f[1] - k[1]).abs() < 1e-11);
-        }
-    }
-}
+mod tests;

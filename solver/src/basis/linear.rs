@@ -1,8 +1,6 @@
-//! Multilinear shape functions, `N = prod (1 - |xi|)` over a cell.
+//! Linear functions, `N = 1 - |xi|` over a cell either side.
 
-use super::grid_basis::Basis;
-use crate::grid::Grid;
-use crate::tensor::Vector;
+use super::grid_basis::{Along, Basis};
 
 /// The multilinear basis: 2^D nodes a point.
 #[derive(Clone, Copy, Debug)]
@@ -10,41 +8,17 @@ pub struct Linear;
 
 impl Basis for Linear {
     const NAME: &'static str = "linear";
-    const REACH: usize = 1;
+    const WIDTH: usize = 2;
 
-    fn width(dimension: usize) -> usize {
-        1 << dimension
-    }
-
+    /// A place on the upper end of the grid belongs to the last cell.
     #[inline]
-    fn evaluate<const D: usize>(
-        grid: &Grid<D>,
-        x: &Vector<D>,
-        nodes: &mut [u32],
-        values: &mut [f64],
-        gradients: &mut [Vector<D>],
-    ) -> bool {
-        let Some((cell, local)) = grid.locate(x) else {
-            return false;
-        };
-        for corner in 0..1 << D {
-            let mut index = cell;
-            let mut value = 1.0;
-            let mut gradient = grid.h.map(|h| 1.0 / h);
-            for a in 0..D {
-                let up = corner >> a & 1 == 1;
-                let n = if up { local[a] } else { 1.0 - local[a] };
-                let sign = if up { 1.0 } else { -1.0 };
-                index[a] += usize::from(up);
-                value *= n;
-                for (b, g) in gradient.iter_mut().enumerate() {
-                    *g *= if a == b { sign } else { n };
-                }
-            }
-            nodes[corner] = grid.node(index) as u32;
-            values[corner] = value;
-            gradients[corner] = gradient;
+    fn point(&self, s: f64, cells: usize) -> Along {
+        let cell = (s as usize).min(cells - 1);
+        let up = s - cell as f64;
+        Along {
+            first: cell as isize,
+            values: [1.0 - up, up, 0.0],
+            slopes: [-1.0, 1.0, 0.0],
         }
-        true
     }
 }

@@ -3,6 +3,9 @@
 //! Kernels speak to a [`Discretisation`] in blocks of points, so that the choice of the basis is
 //! made once a block and the loops within are compiled for it.
 
+pub mod bspline;
+mod faint;
+pub mod gimp;
 pub mod grid_basis;
 pub mod linear;
 
@@ -10,6 +13,7 @@ use crate::grid::Grid;
 use crate::linear::block_matrix::{BlockMatrix, Pattern};
 use crate::problem::BasisKind;
 use crate::tensor::{Matrix, Tensor4, Vector};
+use grid_basis::GridDiscretisation;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -117,6 +121,9 @@ pub trait Discretisation<const D: usize>: Send {
         out: &mut [Vector<D>],
     );
 
+    /// Adds `w_p N_I N_J` in each direction to the diagonal of block (I, J): consistent masses.
+    fn scatter_mass(&self, block: Range<usize>, weights: &[Vector<D>], out: &mut BlockMatrix<D>);
+
     /// Adds `V_p dN_I/dx_j A_ijkl dN_J/dx_l` to entry (i, k) of block (I, J).
     fn scatter_tangent(
         &self,
@@ -126,15 +133,32 @@ pub trait Discretisation<const D: usize>: Send {
         out: &mut BlockMatrix<D>,
     );
 
+    /// Nodes that a node couples with, itself included.
+    fn couplings(&self) -> usize;
+
     /// Memory of one point in bytes.
     fn bytes_per_point(&self) -> usize;
 }
 
-/// The discretisation of `grid` by the basis called `kind`.
-pub fn on_grid<const D: usize>(kind: BasisKind, grid: &Grid<D>) -> Box<dyn Discretisation<D>> {
+/// The discretisation by the basis called `kind` of `grid`, whose cells are filled with `per_axis`
+/// points along each axis.
+pub fn on_grid<const D: usize>(
+    kind: BasisKind,
+    grid: &Grid<D>,
+    per_axis: usize,
+) -> Box<dyn Discretisation<D>> {
+    let (grid, per_cell) = (grid.clone(), per_axis.pow(D as u32));
     match kind {
-        BasisKind::Linear => Box::new(grid_basis::GridDiscretisation::<linear::Linear, D>::new(
-            grid.clone(),
+        BasisKind::Linear => Box::new(GridDiscretisation::new(grid, linear::Linear, per_cell)),
+        BasisKind::Gimp => Box::new(GridDiscretisation::new(
+            grid,
+            gimp::Gimp::new(per_axis),
+            per_cell,
+        )),
+        BasisKind::Bspline => Box::new(GridDiscretisation::new(
+            grid,
+            bspline::QuadraticBSpline,
+            per_cell,
         )),
     }
 }

@@ -124,7 +124,8 @@ pub struct Parts<const D: usize> {
     pub displacement: Option<DisplacementTransfer>,
 }
 
-/// How the points of a layer get their displacement.
+/// How points get their displacement where a layer asks for it: all of them, so that what the nodes
+/// between body and layer get is filtered alike on both sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DisplacementTransfer {
     /// From the nodes anew in every step (K25 (18)): a low-pass filter.

@@ -3,7 +3,7 @@
 //! motion, so that only the mesh reflects.
 //!
 //! ```text
-//! M = rho,  C = rho (b_1 + b_2),  Kd = rho b_1 b_2                                        (lumped)
+//! M = rho,  C = rho (b_1 + b_2),  Kd = rho b_1 b_2
 //! beta_j = b_0 (d/L)^2,     b_0 = 3 c_p ln(1/R) / (2 L)
 //! s2/s1 = 1 + r_1/(W + p_1),   p_1 = b_1,   r_1 = b_2 - b_1       (2 the other way round)
 //! dphi_kl/dt + p_l phi_kl = g_kl,          g_kl = u_k,l
@@ -21,7 +21,8 @@ use crate::error::SolverError;
 use crate::linear::block_matrix::BlockMatrix;
 use crate::material::MaterialBlock;
 use crate::material::linear_elastic::LinearElastic;
-use crate::physics::kernel::{Lumped, RegionKernel, Stiffness, Trial};
+use crate::physics::inertia::PointInertia;
+use crate::physics::kernel::{RegionKernel, Stiffness, Trial};
 use crate::physics::stiffness::scatter_moduli;
 use crate::points::{BLOCK, Points, blocks};
 use crate::problem::{Problem, Scheme, Side, Transfer};
@@ -211,30 +212,13 @@ impl<const D: usize> Pml<D> {
     }
 }
 
-/// Adds `sum_q N_q w_q` of a range of points, `w` times the point's mass.
-fn lump_with<const D: usize>(
-    range: &Range<usize>,
-    disc: &dyn Discretisation<D>,
-    points: &Points<D>,
-    factor: impl Fn(usize) -> f64,
-    out: &mut [Vector<D>],
-) {
-    for block in blocks(range.clone()) {
-        let values: Vec<Vector<D>> = block
-            .clone()
-            .map(|p| [factor(p - range.start); D])
-            .collect();
-        disc.scatter_vector(block.clone(), &points.mass[block], &values, out);
-    }
-}
-
 impl<const D: usize> RegionKernel<D> for Pml<D> {
-    fn lump(&self, disc: &dyn Discretisation<D>, points: &Points<D>, out: &mut Lumped<D>) {
-        let sum = |q: usize| self.beta[q].iter().sum();
-        let product = |q: usize| self.beta[q].iter().product();
-        lump_with(&self.range, disc, points, |_| 1.0, &mut out.mass);
-        lump_with(&self.range, disc, points, sum, out.viscous_mut());
-        lump_with(&self.range, disc, points, product, out.stiffness_mut());
+    fn inertia(&self, block: Range<usize>, out: &mut PointInertia<D>) {
+        let own = block.start - self.range.start..block.end - self.range.start;
+        for beta in &self.beta[own] {
+            out.viscous.push([beta.iter().sum(); D]);
+            out.stiffness.push([beta.iter().product(); D]);
+        }
     }
 
     fn force(&mut self, trial: &Trial<'_, D>, out: &mut [Vector<D>]) -> Result<(), SolverError> {

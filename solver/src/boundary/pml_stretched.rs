@@ -26,7 +26,8 @@ use crate::error::SolverError;
 use crate::linear::block_matrix::BlockMatrix;
 use crate::material::MaterialBlock;
 use crate::material::linear_elastic::LinearElastic;
-use crate::physics::kernel::{Lumped, RegionKernel, Stiffness, Trial};
+use crate::physics::inertia::PointInertia;
+use crate::physics::kernel::{RegionKernel, Stiffness, Trial};
 use crate::physics::stiffness::scatter_moduli;
 use crate::points::{BLOCK, Points, blocks};
 use crate::problem::{Elastic, Problem, Scheme, Side, Transfer};
@@ -304,19 +305,14 @@ impl<const D: usize> Stretched<D> {
 }
 
 impl<const D: usize> RegionKernel<D> for Stretched<D> {
-    fn lump(&self, disc: &dyn Discretisation<D>, points: &Points<D>, out: &mut Lumped<D>) {
-        for block in blocks(self.range.clone()) {
-            let own = block.start - self.range.start..block.end - self.range.start;
-            let inertia: Vec<Vector<D>> =
-                self.stretch[own].iter().map(|s| s.map(|s| s * s)).collect();
-            let mass = &points.mass[block.clone()];
-            disc.scatter_vector(block.clone(), mass, &inertia, &mut out.mass);
+    fn inertia(&self, block: Range<usize>, out: &mut PointInertia<D>) {
+        let own = block.start - self.range.start..block.end - self.range.start;
+        out.mass.clear();
+        for stretch in &self.stretch[own] {
+            let inertia = stretch.map(|s| s * s);
+            out.mass.push(inertia);
             if self.rayleigh > 0.0 {
-                let damping: Vec<Vector<D>> = inertia
-                    .iter()
-                    .map(|m| m.map(|m| self.rayleigh * m))
-                    .collect();
-                disc.scatter_vector(block, mass, &damping, out.viscous_mut());
+                out.viscous.push(inertia.map(|m| self.rayleigh * m));
             }
         }
     }

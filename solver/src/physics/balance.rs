@@ -18,7 +18,8 @@ impl<const D: usize> Model<D> {
 
     /// Kinetic energy (J) of the target alone or of everything.
     ///
-    /// Where nodes keep the motion a point's share is that of its lumped mass.
+    /// Where nodes keep the motion a point's share is that of its lumped mass, or that of its own
+    /// velocity where masses are consistent.
     pub fn kinetic_energy(&self, target_only: bool) -> f64 {
         let mut energy = 0.0;
         let mut squares = [[0.0; D]; BLOCK];
@@ -30,6 +31,12 @@ impl<const D: usize> Model<D> {
                     Some(motion) if block.end <= motion.v.len() => {
                         for (s, v) in squares.iter_mut().zip(&motion.v[block.clone()]) {
                             *s = v.map(|x| x * x);
+                        }
+                    }
+                    _ if self.consistent.is_some() => {
+                        self.disc.gather(block.clone(), &self.nodes.v, squares);
+                        for s in squares.iter_mut() {
+                            *s = s.map(|x| x * x);
                         }
                     }
                     _ => self.disc.gather(block.clone(), &squared, squares),

@@ -4,7 +4,7 @@
 //! [`Carried`] for points that carry their stress, in small strain when frozen and in finite strain
 //! when they move.
 
-use super::kernel::{Lumped, RegionKernel, Stiffness, Trial};
+use super::kernel::{RegionKernel, Stiffness, Trial};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
 use crate::linear::block_matrix::BlockMatrix;
@@ -12,24 +12,6 @@ use crate::material::MaterialBlock;
 use crate::points::{BLOCK, Points, blocks};
 use crate::tensor::{Matrix, Tensor4, Vector, zero};
 use std::ops::Range;
-
-/// Adds the masses of a range of points, alike in all directions.
-fn lump_mass<const D: usize>(
-    range: Range<usize>,
-    disc: &dyn Discretisation<D>,
-    points: &Points<D>,
-    out: &mut Lumped<D>,
-) {
-    let unit = [[1.0; D]; BLOCK];
-    for block in blocks(range) {
-        disc.scatter_vector(
-            block.clone(),
-            &points.mass[block.clone()],
-            &unit[..block.len()],
-            &mut out.mass,
-        );
-    }
-}
 
 /// Frozen points, displacement kept on nodes.
 pub struct Kept<const D: usize> {
@@ -60,10 +42,6 @@ impl<const D: usize> Kept<D> {
 }
 
 impl<const D: usize> RegionKernel<D> for Kept<D> {
-    fn lump(&self, disc: &dyn Discretisation<D>, points: &Points<D>, out: &mut Lumped<D>) {
-        lump_mass(self.range.clone(), disc, points, out);
-    }
-
     fn force(&mut self, trial: &Trial<'_, D>, out: &mut [Vector<D>]) -> Result<(), SolverError> {
         let mut stress = [zero::<D>(); BLOCK];
         for displacement in [trial.start, trial.increment] {
@@ -180,10 +158,6 @@ impl<const D: usize> Carried<D> {
 }
 
 impl<const D: usize> RegionKernel<D> for Carried<D> {
-    fn lump(&self, disc: &dyn Discretisation<D>, points: &Points<D>, out: &mut Lumped<D>) {
-        lump_mass(self.range.clone(), disc, points, out);
-    }
-
     fn force(&mut self, trial: &Trial<'_, D>, out: &mut [Vector<D>]) -> Result<(), SolverError> {
         let mut first = [zero::<D>(); BLOCK];
         let mut next = std::mem::take(&mut self.next);

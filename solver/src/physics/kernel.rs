@@ -4,6 +4,7 @@
 //! M a + C v + K u + f_int(u) = f_ext
 //! ```
 
+use super::inertia::PointInertia;
 use crate::basis::Discretisation;
 use crate::error::SolverError;
 use crate::grid::Grid;
@@ -11,6 +12,7 @@ use crate::linear::Moment;
 use crate::linear::block_matrix::BlockMatrix;
 use crate::points::Points;
 use crate::tensor::Vector;
+use std::ops::Range;
 
 /// Lumped coefficients of the nodes, one an unknown.
 #[derive(Clone, Debug, Default)]
@@ -43,6 +45,21 @@ impl<const D: usize> Lumped<D> {
     pub fn stiffness_mut(&mut self) -> &mut [Vector<D>] {
         self.stiffness.resize(self.mass.len(), [0.0; D]);
         &mut self.stiffness
+    }
+
+    /// Becomes `whole` less itself.
+    pub fn become_rest_of(&mut self, whole: &Self) {
+        let pairs = [
+            (&mut self.mass, &whole.mass),
+            (&mut self.viscous, &whole.viscous),
+            (&mut self.stiffness, &whole.stiffness),
+        ];
+        for (part, whole) in pairs {
+            part.resize(whole.len(), [0.0; D]);
+            for (x, all) in part.iter_mut().zip(whole) {
+                *x = std::array::from_fn(|i| all[i] - x[i]);
+            }
+        }
     }
 
     /// Becomes `other`, without giving memory back.
@@ -84,8 +101,8 @@ pub struct Trial<'a, const D: usize> {
 
 /// A region of points: its internal force, tangent and memory.
 pub trait RegionKernel<const D: usize>: Send {
-    /// Adds masses and other lumped coefficients of the region's points.
-    fn lump(&self, disc: &dyn Discretisation<D>, points: &Points<D>, out: &mut Lumped<D>);
+    /// Says what inertia, damping and springs the points of `block` have; plain masses unless changed.
+    fn inertia(&self, _block: Range<usize>, _out: &mut PointInertia<D>) {}
 
     /// Adds the internal force of the trial state.
     ///

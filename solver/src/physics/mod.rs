@@ -3,12 +3,13 @@
 //! - [`kernel`]: what a region of points and a term on nodes have to say.
 //! - [`bulk`]: plain solid, kept on nodes or carried by points.
 //! - [`model`]: the semi-discrete system that integrators see; [`stiffness`] its matrices,
-//!   [`transfer`] the motion between points and nodes, [`balance`] its energy and momentum,
+//!   [`inertia`] lumped or consistent masses, [`transfer`] the motion between points and nodes, [`balance`] its energy and momentum,
 //!   `hold` its held, driven and released unknowns.
 
 pub mod balance;
 pub mod bulk;
 mod hold;
+pub mod inertia;
 pub mod kernel;
 pub mod model;
 pub mod stiffness;

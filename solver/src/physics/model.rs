@@ -1,5 +1,6 @@
 //! The semi-discrete system: points, nodes, regions and terms joined.
 
+use super::inertia::{Consistent, PointInertia, lump};
 use super::kernel::{Constraints, Lumped, NodeTerm, RegionKernel, Stiffness, Trial};
 use super::stiffness::{Matrices, Surroundings, weighted_square};
 use super::transfer::KeptNodes;
@@ -57,12 +58,14 @@ pub struct Parts<const D: usize> {
     pub movable: Option<usize>,
     /// From here on points rest and their nodes keep the motion.
     pub first_kept: usize,
-    /// Points that take their displacement from the nodes in every step (K25 (18)).
-    pub replaced_displacement: Option<Range<usize>>,
+    /// Do points take their displacement from the nodes in every step (K25 (18)), or by increments?
+    pub replaced_displacement: bool,
     /// Transfer between points and nodes.
     pub transfer: Transfer,
     /// Linear solver.
     pub solver: LinearSolver<D>,
+    /// Does inertia couple nodes as the shape functions do?
+    pub consistent: bool,
 }
 
 /// Points, nodes, regions and terms.
@@ -86,7 +89,7 @@ pub struct Model<const D: usize> {
     /// Linear solver.
     pub solver: LinearSolver<D>,
     pub(super) movable: usize,
-    pub(super) replaced_displacement: Option<Range<usize>>,
+    pub(super) replaced_displacement: bool,
     pub(super) kept: KeptNodes<D>,
     pub(super) matrices: Matrices<D>,
     pub(super) moment: Moment,
@@ -94,6 +97,8 @@ pub struct Model<const D: usize> {
     /// What points at rest contribute, once and for all.
     resting: Lumped<D>,
     first_kept: usize,
+    inertia: PointInertia<D>,
+    pub(super) consistent: Option<Consistent<D>>,
     pub(super) constraints: Constraints<D>,
     work: Vec<Vector<D>>,
     pub(super) times: [f64; 2],
@@ -113,6 +118,7 @@ impl<const D: usize> Model<D> {
             mut terms,
             transfer,
             solver,
+            consistent,
             ..
         } = parts;
         let n = grid.node_count();
@@ -149,6 +155,8 @@ impl<const D: usize> Model<D> {
             kept,
             resting: Lumped::default(),
             first_kept: parts.first_kept,
+            inertia: PointInertia::default(),
+            consistent: consistent.then(|| Consistent::new(n)),
             grid,
             disc,
             points,
@@ -176,16 +184,12 @@ impl<const D: usize> Model<D> {
         self.lump();
     }
 
-    fn lumped_at_rest(&self) -> Lumped<D> {
+    fn lumped_at_rest(&mut self) -> Lumped<D> {
         let mut resting = Lumped::zeros(self.grid.node_count());
-        for region in self
-            .regions
-            .iter()
-            .filter(|r| r.range.start >= self.first_kept)
-        {
-            region
-                .kernel
-                .lump(self.disc.as_ref(), &self.points, &mut resting);
+        let (disc, own) = (self.disc.as_ref(), &mut self.inertia);
+        let at_rest = |r: &&Region<D>| r.range.start >= self.first_kept;
+        for region in self.regions.iter().filter(at_rest) {
+            lump(region, disc, &self.points, own, &mut resting);
         }
         resting
     }
@@ -194,15 +198,19 @@ impl<const D: usize> Model<D> {
     fn lump(&mut self) {
         let lumped = &mut self.nodes.lumped;
         lumped.copy_from(&self.resting);
-        for region in self
-            .regions
-            .iter()
-            .filter(|r| r.range.start < self.first_kept)
-        {
-            region.kernel.lump(self.disc.as_ref(), &self.points, lumped);
+        let (disc, own) = (self.disc.as_ref(), &mut self.inertia);
+        let not_at_rest = |r: &&Region<D>| r.range.start < self.first_kept;
+        for region in self.regions.iter().filter(not_at_rest) {
+            lump(region, disc, &self.points, own, lumped);
+        }
+        if let Some(consistent) = &mut self.consistent {
+            consistent.diagonal.copy_from(lumped);
         }
         for term in &self.terms {
             term.lump(lumped);
+        }
+        if let Some(consistent) = &mut self.consistent {
+            consistent.diagonal.become_rest_of(lumped);
         }
         for (active, mass) in self.nodes.active.iter_mut().zip(&lumped.mass) {
             *active = mass.iter().all(|m| *m > 0.0);
@@ -268,13 +276,18 @@ impl<const D: usize> Model<D> {
             dt: self.dt,
             moment: self.moment,
         };
+        let consistent = self.consistent.as_ref();
         let around = Surroundings {
-            lumped: &self.nodes.lumped,
+            diagonal: consistent.map_or(&self.nodes.lumped, |c| &c.diagonal),
             terms: &self.terms,
             active: &self.nodes.active,
         };
         self.matrices
             .assemble(rates, &mut self.regions, &trial, &around);
+        if let Some(consistent) = &mut self.consistent {
+            let (disc, out) = (self.disc.as_ref(), self.matrices.effective_mut());
+            consistent.add_to(out, &self.regions, disc, &self.points, rates);
+        }
         self.solver.invalidate();
     }
 
@@ -354,10 +367,16 @@ impl<const D: usize> System<D> for Model<D> {
         for f in out.as_flattened_mut() {
             *f = -*f;
         }
-        subtract_product(out, &lumped.mass, trial.a);
-        subtract_product(out, &lumped.viscous, trial.v);
-        subtract_product(out, &lumped.stiffness, &self.nodes.u);
-        subtract_product(out, &lumped.stiffness, trial.increment);
+        let consistent = self.consistent.as_ref();
+        let diagonal = consistent.map_or(lumped, |c| &c.diagonal);
+        subtract_product(out, &diagonal.mass, trial.a);
+        subtract_product(out, &diagonal.viscous, trial.v);
+        subtract_product(out, &diagonal.stiffness, &self.nodes.u);
+        subtract_product(out, &diagonal.stiffness, trial.increment);
+        if let Some(consistent) = &mut self.consistent {
+            let (disc, points) = (self.disc.as_ref(), &self.points);
+            consistent.subtract(&self.regions, disc, points, trial, &self.nodes.u, out);
+        }
         for term in &self.terms {
             term.force(self.times[1], trial.v, &self.nodes.active, out);
         }

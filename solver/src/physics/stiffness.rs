@@ -31,8 +31,8 @@ pub struct Matrices<const D: usize> {
 
 /// What the effective matrix is made of besides the regions.
 pub struct Surroundings<'a, const D: usize> {
-    /// Lumped coefficients of the nodes.
-    pub lumped: &'a Lumped<D>,
+    /// Lumped coefficients of the nodes; those of terms alone when there is consistent inertia.
+    pub diagonal: &'a Lumped<D>,
     /// Terms on nodes.
     pub terms: &'a [Box<dyn NodeTerm<D>>],
     /// Nodes with mass.
@@ -78,6 +78,11 @@ impl<const D: usize> Matrices<D> {
         &self.effective
     }
 
+    /// The effective matrix, to add to.
+    pub fn effective_mut(&mut self) -> &mut BlockMatrix<D> {
+        &mut self.effective
+    }
+
     /// Does the effective matrix stand for these rates?
     pub fn stands_for(&self, rates: Rates) -> bool {
         self.rates.is_some_and(|standing| {
@@ -117,7 +122,7 @@ impl<const D: usize> Matrices<D> {
                 region.kernel.tangent(trial, &mut self.effective);
             }
         }
-        let lumped = around.lumped;
+        let lumped = around.diagonal;
         self.effective.add_diagonal(rates.mass, &lumped.mass);
         self.effective.add_diagonal(rates.viscous, &lumped.viscous);
         self.effective.add_diagonal(1.0, &lumped.stiffness);

@@ -111,11 +111,18 @@ impl<const D: usize> Model<D> {
             if self.transfer == Transfer::Pic {
                 disc.gather(block.clone(), &nodes.v, v);
             }
-            if let Some(u) = &mut motion.u {
-                disc.gather(block.clone(), &nodes.increment, &mut vector[..n]);
-                for (u, d) in u[block.clone()].iter_mut().zip(&vector) {
-                    *u = std::array::from_fn(|i| u[i] + d[i]);
+            match &mut motion.u {
+                // K25 (18), of all points: what the next step sends back to the nodes is filtered
+                Some(u) if self.replaced_displacement => {
+                    disc.gather(block.clone(), &nodes.u, &mut u[block.clone()]);
                 }
+                Some(u) => {
+                    disc.gather(block.clone(), &nodes.increment, &mut vector[..n]);
+                    for (u, d) in u[block.clone()].iter_mut().zip(&vector) {
+                        *u = std::array::from_fn(|i| u[i] + d[i]);
+                    }
+                }
+                None => {}
             }
             if let Some(l) = &mut motion.gradients {
                 disc.gradient(block.clone(), &nodes.a, &mut matrix[..n]);
@@ -126,12 +133,6 @@ impl<const D: usize> Model<D> {
                     matrix[..n].as_flattened().as_flattened(),
                     half,
                 );
-            }
-        }
-        if let (Some(u), Some(range)) = (&mut motion.u, &self.replaced_displacement) {
-            // K25 (18): the layer's points take the nodes' displacement, a low-pass filter
-            for block in blocks(range.clone()) {
-                disc.gather(block.clone(), &nodes.u, &mut u[block]);
             }
         }
     }
