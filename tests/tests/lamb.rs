@@ -67,6 +67,21 @@ fn a_horizontal_force_moves_the_half_space_as_lamb_says() {
     all_pass(&finished, 3);
 }
 
+#[test]
+fn smooth_functions_hardly_disperse() {
+    let worst = |presets: &[&str]| {
+        let out = folder();
+        let mut options = gate(&out);
+        options.request.presets = presets.iter().map(|p| (*p).to_owned()).collect();
+        let finished = run(&options).unwrap_or_else(|error| panic!("{error}"));
+        all_pass(&finished, 3);
+        value(&finished.rows, "extended", "peak_error", "R:worst")
+    };
+    let (linear, bspline) = (worst(&[]), worst(&["bspline"]));
+    println!("peak error at the worst receiver: linear {linear:.3}, bspline {bspline:.3}");
+    assert!(bspline < 0.6 * linear);
+}
+
 /// Claims that fail when the record is that of a problem that `change` has altered.
 fn failing_when(change: impl Fn(&mut Problem<2>)) -> Vec<String> {
     let request = Request {

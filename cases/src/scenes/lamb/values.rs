@@ -67,6 +67,12 @@ pub(super) const PRESETS: &[Overlay] = &[
         "source.direction = 'horizontal'",
     ),
     Overlay::new(
+        "bspline",
+        "quadratic B-splines with consistent masses, which hardly disperse",
+        "basis = 'bspline'
+        time.mass = 'consistent'",
+    ),
+    Overlay::new(
         "moving-affine",
         "points move and carry the motion with its gradient",
         "points = { mode = 'moving', transfer = 'affine' }",
