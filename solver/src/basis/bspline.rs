@@ -6,10 +6,10 @@
 //!     (3/2 - |xi|)^2/2 1/2 <= |xi| <= 3/2
 //! ```
 //!
-//! At the ends of the grid they are folded (see [`super::grid_basis`]), which makes them linear within
+//! At the ends of the grid they are folded (see [`super::along`]), which makes them linear within
 //! half a cell of an end; there is no knot to repeat, since nodes stay at the cells' corners.
 
-use super::grid_basis::{Along, Basis};
+use super::along::{Along, Basis};
 
 /// The basis: 3^D nodes a point.
 #[derive(Clone, Copy, Debug)]

@@ -11,7 +11,7 @@
 //! Gradients are continuous, so that a point does not jerk when it crosses a cell's face. Places
 //! without extent (receivers, surfaces, forces) see the linear functions themselves.
 
-use super::grid_basis::{Along, Basis};
+use super::along::{Along, Basis};
 use super::linear::Linear;
 
 /// The basis: 3^D nodes a point.

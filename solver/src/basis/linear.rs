@@ -1,6 +1,6 @@
 //! Linear functions, `N = 1 - |xi|` over a cell either side.
 
-use super::grid_basis::{Along, Basis};
+use super::along::{Along, Basis};
 
 /// The multilinear basis: 2^D nodes a point.
 #[derive(Clone, Copy, Debug)]

@@ -3,6 +3,7 @@
 //! Kernels speak to a [`Discretisation`] in blocks of points, so that the choice of the basis is
 //! made once a block and the loops within are compiled for it.
 
+pub mod along;
 pub mod bspline;
 mod faint;
 pub mod gimp;

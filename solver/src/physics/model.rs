@@ -2,17 +2,16 @@
 
 use super::inertia::{Consistent, PointInertia, lump};
 use super::kernel::{Constraints, Lumped, NodeTerm, RegionKernel, Stiffness, Trial};
-use super::stiffness::{Matrices, Surroundings, weighted_square};
+use super::stiffness::{Matrices, Surroundings};
 use super::transfer::KeptNodes;
 use crate::basis::Discretisation;
 use crate::error::SolverError;
 use crate::grid::Grid;
-use crate::linear::cg::norm;
-use crate::linear::{Equations, LinearSolver, Moment};
+use crate::linear::{LinearSolver, Moment};
 use crate::points::Points;
 use crate::problem::Transfer;
 use crate::tensor::Vector;
-use crate::time::{ForceScale, Motion, Rates, System};
+use crate::time::Rates;
 use std::ops::Range;
 
 /// A range of points with its kernel.
@@ -195,7 +194,7 @@ impl<const D: usize> Model<D> {
     }
 
     /// Gathers masses and damping of the nodes.
-    fn lump(&mut self) {
+    pub(super) fn lump(&mut self) {
         let lumped = &mut self.nodes.lumped;
         lumped.copy_from(&self.resting);
         let (disc, own) = (self.disc.as_ref(), &mut self.inertia);
@@ -227,7 +226,7 @@ impl<const D: usize> Model<D> {
             .count()
     }
 
-    fn trial<'a>(&'a self, increment: &'a [Vector<D>]) -> Trial<'a, D> {
+    pub(super) fn trial<'a>(&'a self, increment: &'a [Vector<D>]) -> Trial<'a, D> {
         Trial {
             disc: self.disc.as_ref(),
             points: &self.points,
@@ -239,7 +238,7 @@ impl<const D: usize> Model<D> {
     }
 
     /// Internal force of the trial increment.
-    fn internal_force(
+    pub(super) fn internal_force(
         &mut self,
         increment: &[Vector<D>],
         out: &mut [Vector<D>],
@@ -267,7 +266,7 @@ impl<const D: usize> Model<D> {
     }
 
     /// The effective matrix at the trial increment.
-    fn assemble(&mut self, rates: Rates, increment: &[Vector<D>]) {
+    pub(super) fn assemble(&mut self, rates: Rates, increment: &[Vector<D>]) {
         let trial = Trial {
             disc: self.disc.as_ref(),
             points: &self.points,
@@ -291,7 +290,11 @@ impl<const D: usize> Model<D> {
         self.solver.invalidate();
     }
 
-    fn check_finite(&self, values: &[Vector<D>], field: &'static str) -> Result<(), SolverError> {
+    pub(super) fn check_finite(
+        &self,
+        values: &[Vector<D>],
+        field: &'static str,
+    ) -> Result<(), SolverError> {
         match values.iter().position(|x| x.iter().any(|v| !v.is_finite())) {
             None => Ok(()),
             Some(node) => Err(SolverError::NonFinite {
@@ -300,172 +303,6 @@ impl<const D: usize> Model<D> {
                 time_s: self.moment.time_s,
                 place: self.grid.node_place(node).to_vec(),
             }),
-        }
-    }
-}
-
-impl<const D: usize> System<D> for Model<D> {
-    fn begin_step(&mut self, times: [f64; 2], moment: Moment) {
-        self.times = times;
-        self.dt = times[1] - times[0];
-        self.moment = moment;
-        if self.moving {
-            self.lump();
-        }
-        self.transfer_to_nodes();
-        self.constrain();
-    }
-
-    fn is_linear(&self) -> bool {
-        !self.moving
-    }
-
-    fn moment(&self) -> Moment {
-        self.moment
-    }
-
-    fn motion(&self) -> Motion<'_, D> {
-        Motion {
-            increment: &self.nodes.increment,
-            v: &self.nodes.v,
-            a: &self.nodes.a,
-        }
-    }
-
-    fn impose(&self, increment: &mut [Vector<D>]) {
-        for (d, held) in increment.iter_mut().zip(&self.constraints.held) {
-            for i in 0..D {
-                if held[i] {
-                    d[i] = 0.0;
-                }
-            }
-        }
-        for &(node, i, motion) in &self.constraints.driven {
-            let mean = 0.5 * (motion.velocity[0] + motion.velocity[1]);
-            increment[node as usize][i as usize] = self.dt * mean;
-        }
-    }
-
-    fn impose_end(&self, v: &mut [Vector<D>], a: &mut [Vector<D>]) {
-        for &(node, i, motion) in &self.constraints.driven {
-            v[node as usize][i as usize] = motion.velocity[1];
-            a[node as usize][i as usize] = motion.acceleration[1];
-        }
-    }
-
-    fn residual(
-        &mut self,
-        trial: &Motion<'_, D>,
-        out: &mut [Vector<D>],
-    ) -> Result<ForceScale, SolverError> {
-        self.internal_force(trial.increment, out)?;
-        let mut scale = norm(out);
-        let lumped = &self.nodes.lumped;
-        scale = scale.max(weighted_square(&lumped.mass, trial.a).sqrt());
-        let rate = 4.0 / (self.dt * self.dt);
-        let large = rate * weighted_square(&lumped.mass, trial.increment).sqrt();
-        for f in out.as_flattened_mut() {
-            *f = -*f;
-        }
-        let consistent = self.consistent.as_ref();
-        let diagonal = consistent.map_or(lumped, |c| &c.diagonal);
-        subtract_product(out, &diagonal.mass, trial.a);
-        subtract_product(out, &diagonal.viscous, trial.v);
-        subtract_product(out, &diagonal.stiffness, &self.nodes.u);
-        subtract_product(out, &diagonal.stiffness, trial.increment);
-        if let Some(consistent) = &mut self.consistent {
-            let (disc, points) = (self.disc.as_ref(), &self.points);
-            consistent.subtract(&self.regions, disc, points, trial, &self.nodes.u, out);
-        }
-        for term in &self.terms {
-            term.force(self.times[1], trial.v, &self.nodes.active, out);
-        }
-        for (f, held) in out.iter_mut().zip(&self.constraints.held) {
-            for i in 0..D {
-                if held[i] {
-                    f[i] = 0.0;
-                }
-            }
-        }
-        self.check_finite(out, "the balance of forces")?;
-        Ok(ForceScale {
-            largest: scale.max(norm(out)),
-            rounding: 8.0 * f64::EPSILON * large,
-        })
-    }
-
-    fn solve(
-        &mut self,
-        rates: Rates,
-        increment: &[Vector<D>],
-        right: &[Vector<D>],
-        scale: ForceScale,
-        correction: &mut [Vector<D>],
-    ) -> Result<(), SolverError> {
-        // a moving model's tangent changes with every trial, a frozen one's only with the rates
-        if self.moving || !self.matrices.stands_for(rates) {
-            self.assemble(rates, increment);
-        }
-        let disc = &self.disc;
-        let equations = Equations {
-            matrix: self.matrices.effective(),
-            symmetric: self.regions.iter().all(|r| r.kernel.is_symmetric()),
-            held: &self.constraints.held,
-            b: right,
-            scale,
-        };
-        self.solver.solve(
-            &equations,
-            || disc.elimination_order(),
-            correction,
-            self.moment,
-        )?;
-        self.check_finite(correction, "the displacement")
-    }
-
-    fn place_of_largest(&self, field: &[Vector<D>]) -> Vec<f64> {
-        let size = |n: &usize| field[*n].iter().map(|x| x.abs()).fold(0.0, f64::max);
-        let node = (0..field.len())
-            .max_by(|a, b| size(a).total_cmp(&size(b)))
-            .unwrap_or(0);
-        self.grid.node_place(node).to_vec()
-    }
-
-    fn commit(&mut self, end: &Motion<'_, D>) -> Result<(), SolverError> {
-        let mut regions = std::mem::take(&mut self.regions);
-        let trial = self.trial(end.increment);
-        let mut result = Ok(());
-        for region in &mut regions {
-            result = result.and_then(|()| region.kernel.commit(&trial));
-        }
-        self.regions = regions;
-        result?;
-        self.nodes.increment.copy_from_slice(end.increment);
-        self.nodes.v.copy_from_slice(end.v);
-        self.nodes.a.copy_from_slice(end.a);
-        for (u, d) in self.nodes.u.iter_mut().zip(end.increment) {
-            for i in 0..D {
-                u[i] += d[i];
-            }
-        }
-        self.transfer_to_points();
-        if self.moving {
-            self.move_points()
-        } else {
-            Ok(())
-        }
-    }
-}
-
-/// `out -= coefficients * values`, entry by entry; nothing when there are no coefficients.
-fn subtract_product<const D: usize>(
-    out: &mut [Vector<D>],
-    coefficients: &[Vector<D>],
-    values: &[Vector<D>],
-) {
-    for ((f, c), x) in out.iter_mut().zip(coefficients).zip(values) {
-        for i in 0..D {
-            f[i] -= c[i] * x[i];
         }
     }
 }

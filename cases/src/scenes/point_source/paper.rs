@@ -44,6 +44,11 @@ pub(super) const LEDGER: &[(Finding, &str, &str)] = &[
         "A true perfectly matched layer of 10 cells (a fifth of the thickness) leaves 0.41 / 0.95 / 0.47 % where the published one of 50 leaves 5.0 / 13.0 / 10.2 % (echo ratio, frozen points).",
     ),
     (
+        Finding::Reproduced,
+        "Eq (18), whose displacement",
+        "It is of all particles. With the published transfer and 120,000 moving points (preset `paper-transfer`) the echo is 3.3 / 11.5 / 9.6 %. Where the layer's particles alone take the nodes' displacement, the nodes between body and layer mix filtered and unfiltered motion, and 7.1 / 10.5 / 10.2 % comes back.",
+    ),
+    (
         Finding::Differs,
         "Eq (10)",
         "The sign of the divergence term is misprinted; the balance of momentum is used.",

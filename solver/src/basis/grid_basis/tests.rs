@@ -1,3 +1,4 @@
+use super::super::along::{Along, fold};
 use super::super::{bspline::QuadraticBSpline, gimp::Gimp, linear::Linear};
 use super::*;
 
