@@ -12,6 +12,10 @@ const ROW: f64 = 26.0;
 const TOP: f64 = 42.0;
 const FOOT: f64 = 46.0;
 const GAP: f64 = 26.0;
+/// Echoes above this are of runs that grow: their bars end at the axis' end, with the number in them.
+const LARGEST_ECHO: f64 = 30.0;
+/// A floor this much below all echoes is told of instead of making all bars look alike.
+const FAR_BELOW: f64 = 0.01;
 
 /// One column of bars: a number for each method.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +63,7 @@ impl BarPlot {
             y: Axis::linear(0.0, self.methods.len() as f64, 1),
         };
         self.draw_column(&mut drawing, &panel, &self.echo, &self.worst);
-        if let Some(floor) = self.floor {
+        if let Some(floor) = self.floor.filter(|floor| *floor > 0.0) {
             draw_floor(&mut drawing, &panel, floor);
         }
         for cost in &self.costs {
@@ -102,21 +106,20 @@ impl BarPlot {
 
     /// From below the smallest positive value to above the largest, with room for the numbers.
     fn echo_axis(&self) -> Axis {
-        let values = self
-            .echo
-            .values
-            .iter()
-            .chain(&self.worst)
-            .flatten()
-            .copied();
-        let positive = values.chain(self.floor).filter(|v| *v > 0.0);
-        let (low, high) = positive.fold((f64::INFINITY, 0.0), |(low, high), v| {
-            (f64::min(low, v), f64::max(high, v))
-        });
-        if high == 0.0 {
+        let Some((low, high)) = self.echo_range() else {
             return Axis::log(1e-3, 1.0, 6);
-        }
-        Axis::log_range(0.2 * low, 6.0 * high, 7)
+        };
+        let near = self.floor.filter(|floor| *floor >= FAR_BELOW * low);
+        let low = near.map_or(low, |floor| low.min(floor));
+        Axis::log_range(0.2 * low, (6.0 * high).min(LARGEST_ECHO), 7)
+    }
+
+    /// Smallest and largest positive echo.
+    fn echo_range(&self) -> Option<(f64, f64)> {
+        let values = self.echo.values.iter().chain(&self.worst).flatten();
+        let mut positive = values.copied().filter(|v| *v > 0.0);
+        let first = positive.next()?;
+        Some(positive.fold((first, first), |(low, high), v| (low.min(v), high.max(v))))
     }
 
     fn draw_column(
@@ -142,7 +145,7 @@ impl BarPlot {
                 drawing.text("–", (panel.left + 6.0, middle), TICK_TEXT, Align::Start);
                 continue;
             };
-            let end = panel.at(*value, 0.0).0;
+            let end = panel.at(*value, 0.0).0.min(panel.right());
             let corner = (end.max(panel.left + 1.0), middle + 0.36 * ROW);
             drawing.add(Mark::Fill(
                 (panel.left, middle - 0.36 * ROW),
@@ -151,7 +154,7 @@ impl BarPlot {
             ));
             let mut label_at = corner.0;
             if let Some(worst) = worst.get(i).copied().flatten() {
-                let x = panel.at(worst, 0.0).0;
+                let x = panel.at(worst, 0.0).0.min(panel.right());
                 drawing.line((end, middle), (x, middle), Stroke::solid(palette::INK, 1.0));
                 let (above, below) = ((x, middle - 5.0), (x, middle + 5.0));
                 drawing.line(above, below, Stroke::solid(palette::INK, 1.5));
@@ -204,6 +207,12 @@ fn cost_axis(cost: &Bars, width: f64) -> Axis {
 
 fn draw_floor(drawing: &mut Drawing, panel: &Panel, floor: f64) {
     let x = panel.at(floor, 0.0).0;
+    if x < panel.left {
+        let text = format!("floor {}, far to the left", format::number(floor));
+        let at = (panel.left, panel.top - 8.0);
+        drawing.text_in(&text, at, 11.0, Align::Start, palette::SOFT);
+        return;
+    }
     let stroke = Stroke::dashed(palette::INK, 1.2);
     drawing.line((x, panel.top), (x, panel.bottom()), stroke);
     let at = (x, panel.top - 8.0);
