@@ -207,7 +207,8 @@ fn cost_axis(cost: &Bars, width: f64) -> Axis {
 
 fn draw_floor(drawing: &mut Drawing, panel: &Panel, floor: f64) {
     let x = panel.at(floor, 0.0).0;
-    if x < panel.left {
+    // places beyond the axis are drawn at its end
+    if x <= panel.left {
         let text = format!("floor {}, far to the left", format::number(floor));
         let at = (panel.left, panel.top - 8.0);
         drawing.text_in(&text, at, 11.0, Align::Start, palette::SOFT);
