@@ -101,6 +101,34 @@ fn our_own_series_score_what_our_run_scored() {
         .find(|line| line.contains(" copy "))
         .expect("ranked");
     assert_eq!(line.matches('–').count(), 3, "{line}");
+
+    // No motion at all, or one with the wrong sign, has no echo either: it is not judged, let alone ranked.
+    for (name, factor) in [("silent", 0.0), ("upside-down", -1.0)] {
+        let text = read(&root.join("copy.csv"));
+        let mut lines = text.lines().map(str::to_owned);
+        let mut changed = lines.next().expect("a head") + "\n";
+        for line in lines {
+            let mut numbers = line.split(',').map(|x| x.parse().expect("a number"));
+            let time: f64 = numbers.next().expect("a time");
+            changed += &time.to_string();
+            numbers.for_each(|x: f64| changed += &format!(",{:e}", factor * x));
+            changed.push('\n');
+        }
+        std::fs::write(root.join(format!("{name}.csv")), changed).expect("written");
+        let file = format!("{name}.csv");
+        let wrong = [
+            "score", CASE, &file, "--format", "json", "--method", "dashpot",
+        ];
+        let output = call(root, &narrow(&wrong), 4);
+        let scored = rows(&output.out);
+        let judged = of(&scored, name);
+        assert!(!judged.iter().any(|row| row[3].contains("pass")));
+        assert!(
+            output.err.contains("not the scene's motion"),
+            "{}",
+            output.err
+        );
+    }
 }
 
 #[test]

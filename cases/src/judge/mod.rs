@@ -2,6 +2,7 @@
 
 mod arrivals;
 mod certified;
+mod foreign;
 mod goodness;
 mod levels;
 mod papers;
@@ -98,6 +99,7 @@ fn measured(run: &Run, runs: &[Run], references: &References) -> Measured {
             missing.extend(certified::measure(run, extended, &mut numbers).err());
             let first = runs.first().is_some_and(|first| std::ptr::eq(first, run));
             measure(run, references, standard_of(run, runs), first, &mut numbers)
+                .and_then(|()| foreign::recognised(run, &mut numbers))
         }
         Status::Cancelled => Err("the run was stopped before its end".to_owned()),
         Status::Failed(error) => Err(format!("the run failed: {error}")),

@@ -149,6 +149,20 @@ fn is_target(scene: &Lamb) -> bool {
 
 /// Why no claim applies to the scene as it stands.
 fn obstacle(scene: &Lamb) -> Option<String> {
+    let sides = &scene.boundary;
+    for (name, side) in [
+        ("left", &sides.left),
+        ("right", &sides.right),
+        ("bottom", &sides.bottom),
+    ] {
+        // Methods that are judged have the same on all three; a file may mix them.
+        if !METHODS.contains(&side.method.as_str()) {
+            return Some(format!(
+                "stated where nothing comes back; boundary.{name} is {}, which is not what a half-space has",
+                side.method
+            ));
+        }
+    }
     let points = &scene.points;
     if ![Transfer::Keep, Transfer::Affine].contains(&points.transfer) {
         return Some(
