@@ -1,9 +1,10 @@
 //! `--filter`: rows whose METHOD/METRIC/WHERE contains a text.
 
 use crate::error::{CaseError, nearest};
+use anechoic_reports::judge::COSTS;
 use anechoic_reports::row::Row;
 
-/// Metrics that rows may hold.
+/// Metrics that rows may hold, costs aside.
 const METRICS: &[&str] = &[
     "residual",
     "echo_ratio",
@@ -20,15 +21,11 @@ const METRICS: &[&str] = &[
     "energy_left",
     "growth_rate_per_s",
     "serves_until_s",
-    "cpu_s",
-    "wall_s",
-    "peak_bytes",
-    "steps",
-    "iterations",
-    "unknowns",
-    "points",
-    "us_per_point_step",
 ];
+
+fn metrics<'a>() -> impl Iterator<Item = &'a str> {
+    METRICS.iter().copied().chain(COSTS)
+}
 
 /// A text that rows are chosen by.
 #[derive(Clone, Debug)]
@@ -60,7 +57,7 @@ impl Filter {
             return Ok(chosen);
         }
         let can_match = |method: &str| {
-            METRICS.iter().any(|metric| {
+            metrics().any(|metric| {
                 places
                     .iter()
                     .any(|place| self.matches_parts(method, metric, place))
@@ -91,7 +88,7 @@ impl Filter {
     }
 
     fn nothing(&self, methods: &[&str]) -> CaseError {
-        let words = methods.iter().copied().chain(METRICS.iter().copied());
+        let words = methods.iter().copied().chain(metrics());
         CaseError::Filter {
             given: self.0.clone(),
             nearest: nearest(&self.0, words),

@@ -1,10 +1,142 @@
-//! What scenes of a force on a half-space share: a rectangle below the surface y = 0, and the force.
+//! What scenes of a force on a half-space share: a rectangle below the surface y = 0, the force,
+//! receivers, and what is solved for them.
 
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
-use anechoic_solver::problem::{Aabb, Drive};
+use crate::scene::Window;
+use crate::spec::*;
+use anechoic_solver::probe::Probes;
+use anechoic_solver::problem::{Aabb, BasisKind, Drive, Problem, Scheme};
 use anechoic_solver::wavelet::{Pulse, Wavelet};
 use serde::{Deserialize, Serialize};
+
+/// A force on a half-space.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HalfSpace {
+    /// Shape functions.
+    pub basis: BasisKind,
+    /// From when on echoes are looked for (s).
+    pub t1_s: f64,
+    /// The body of interest.
+    pub target: TargetSpec,
+    /// Background grid.
+    pub grid: GridSpec,
+    /// Time integration; the scene says what step it takes where none is given.
+    pub time: TimeSpec,
+    /// Material points.
+    pub points: PointsSpec,
+    /// Linear solver.
+    pub solver: SolverSpec,
+    /// Soil.
+    pub material: MaterialSpec,
+    /// The force.
+    pub source: Source,
+    /// Anywhere in the body.
+    pub receivers: Vec<ReceiverSpec>,
+    /// Sides; the method under test is left, right and at the bottom.
+    pub boundary: BoundarySpec,
+}
+
+/// Energies in a run: enough for pictures and for the growth rate's windows.
+const ENERGIES: f64 = 200.0;
+
+impl HalfSpace {
+    /// What the solver is given, with steps of `dt` (s) and fields at `snapshot_times` (s).
+    pub fn problem(&self, dt: f64, snapshot_times: Vec<f64>) -> Problem<2> {
+        let end = self.time.end_s;
+        Problem {
+            target: self.target.body(),
+            cell_size: self.grid.h_m,
+            basis: self.basis,
+            scheme: self.time.scheme,
+            mass: self.time.mass,
+            dt,
+            end_time: end,
+            point_mode: self.points.mode,
+            transfer: self.points.transfer,
+            points_per_cell: self.points.per_cell,
+            material: self.material.elastic(),
+            sides: self.boundary.sides(),
+            drives: vec![self.source.force()],
+            probes: Probes {
+                receivers: self.receivers.iter().map(ReceiverSpec::probe).collect(),
+                lines: Vec::new(),
+                snapshot_times,
+                energy_every: Some((end / dt / ENERGIES).ceil().max(1.0) as usize),
+            },
+            solver: self.solver.kind,
+            rel_tol: self.solver.rel_tol,
+        }
+    }
+
+    /// What must hold between fields, with steps of `dt` (s).
+    pub fn check(&self, checks: &mut Checks<'_>, dt: f64) {
+        let body = self.target.body();
+        self.target.check(checks);
+        checks.layers(&self.boundary, self.target.size());
+        checks.points(&self.points);
+        checks.receivers(&self.receivers, &body);
+        self.source.check(checks, &body, self.time.end_s);
+        checks.step(dt, self.time.end_s);
+        checks.require(self.t1_s < self.time.end_s, "t1_s", || {
+            format!(
+                "no time is left for echoes: the run ends at time.end_s = {} s",
+                self.time.end_s
+            )
+        });
+        checks.require(self.time.scheme == Scheme::Newmark, "time.scheme", || {
+            "a pulse is lost without inertia; allowed: \"newmark\"".into()
+        });
+    }
+
+    /// Echoes are looked for at all receivers from `t1_s` to the end.
+    pub fn windows(&self) -> Vec<Window> {
+        let window = |receiver: &ReceiverSpec| Window {
+            receiver: receiver.name.clone(),
+            label: String::new(),
+            from_s: self.t1_s,
+            to_s: None,
+            stated_by: None,
+        };
+        self.receivers.iter().map(window).collect()
+    }
+
+    /// Edge of the cells in use (m).
+    pub fn cell_m(&self) -> f64 {
+        self.grid.cell_m(&self.target.body())
+    }
+}
+
+/// Makes a scene that is a [`HalfSpace`] and claims things of its own: a newtype that reads like it.
+macro_rules! half_space_scene {
+    ($(#[$doc:meta])* $name:ident, $values:expr) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+        #[serde(transparent)]
+        pub struct $name(pub crate::half_space::HalfSpace);
+
+        impl Default for $name {
+            fn default() -> Self {
+                toml::from_str($values).expect("the scene's own values are a scene")
+            }
+        }
+
+        impl std::ops::Deref for $name {
+            type Target = crate::half_space::HalfSpace;
+
+            fn deref(&self) -> &Self::Target {
+                &self.0
+            }
+        }
+
+        impl std::ops::DerefMut for $name {
+            fn deref_mut(&mut self) -> &mut Self::Target {
+                &mut self.0
+            }
+        }
+    };
+}
+pub(crate) use half_space_scene;
 
 /// A rectangle below the surface y = 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -3,6 +3,8 @@
 use assert_cmd::Command;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use std::process::Child;
+use std::time::Duration;
 
 /// A column two cells wide: the wave is the same, the cost is not.
 pub const NARROW: [&str; 6] = [
@@ -105,4 +107,19 @@ pub fn run_folder(results: &Path, method: &str) -> PathBuf {
         .collect();
     assert_eq!(folders.len(), 1, "{folders:?}");
     folders.remove(0)
+}
+
+/// Waits half a minute for a file that the program makes while it is at work.
+///
+/// # Panics
+/// When the file does not come, or the program ends without it.
+pub fn wait_for(path: &Path, child: &mut Child) {
+    for _ in 0..6000 {
+        if path.exists() {
+            return;
+        }
+        assert_eq!(child.try_wait().expect("a child"), None, "ended early");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("{} did not come", path.display());
 }

@@ -94,29 +94,35 @@ pub fn judged(methods: &[&str], change: impl Fn(&str, &mut Problem<2>)) -> Vec<R
         sets: NARROW.map(str::to_owned).to_vec(),
         ..Request::default()
     };
-    let run = |method: &&str| {
-        let prepared = show(&request, Some(method)).unwrap_or_else(|error| panic!("{error}"));
-        let mut problem = prepared.scene.problem();
-        change(method, &mut problem);
-        let record = solved(&problem);
-        let hash = prepared.hash();
-        Run {
-            frames: Default::default(),
-            manifest: Manifest {
-                case: prepared.info.name.to_owned(),
-                profile: prepared.profile.clone(),
-                method: prepared.method.clone(),
-                status: record.status.clone(),
-                cost: record.cost.clone(),
-                provenance: provenance::of(&hash),
-                hash,
-                scored: None,
-            },
-            prepared,
-            record,
-        }
-    };
+    let run = |method: &&str| altered(&request, Some(method), |problem| change(method, problem));
     let runs: Vec<Run> = methods.iter().map(run).collect();
     // The column's references are closed forms and its own runs.
     judge_runs(&runs, &References::default()).rows
+}
+
+/// Solves a scene after `change` has had its way with the problem, as a run that knows nothing of it.
+///
+/// # Panics
+/// When the scene is refused or the problem cannot be set up.
+pub fn altered(request: &Request, method: Option<&str>, change: impl Fn(&mut Problem<2>)) -> Run {
+    let prepared = show(request, method).unwrap_or_else(|error| panic!("{error}"));
+    let mut problem = prepared.scene.problem();
+    change(&mut problem);
+    let record = solved(&problem);
+    let hash = prepared.hash();
+    Run {
+        frames: Default::default(),
+        manifest: Manifest {
+            case: prepared.info.name.to_owned(),
+            profile: prepared.profile.clone(),
+            method: prepared.method.clone(),
+            status: record.status.clone(),
+            cost: record.cost.clone(),
+            provenance: provenance::of(&hash),
+            hash,
+            scored: None,
+        },
+        prepared,
+        record,
+    }
 }

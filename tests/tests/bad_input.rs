@@ -1,9 +1,9 @@
 //! Bad input and bad luck: each mistake is found before anything is solved and told with its place and
 //! what is allowed; what goes wrong later loses nothing that was finished.
 
-use anechoic_tests::program::{anechoic, binary, folder, narrow, read, run_folder};
+use anechoic_tests::program::{anechoic, binary, folder, narrow, read, run_folder, wait_for};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 const CASE: &str = "compression-1d";
@@ -266,19 +266,6 @@ fn points_that_are_turned_inside_out_end_the_run_and_leave_the_steps_before() {
     let steps = series.lines().count();
     assert!(steps > 100 && steps < 800, "{steps}");
     assert!(!series.contains("NaN") && !series.contains("inf"));
-}
-
-/// Waits for a file for half a minute.
-#[cfg(unix)]
-fn wait_for(path: &Path, child: &mut Child) {
-    for _ in 0..3000 {
-        if path.exists() {
-            return;
-        }
-        assert_eq!(child.try_wait().expect("a child"), None, "ended early");
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    panic!("{} did not come", path.display());
 }
 
 #[cfg(unix)]

@@ -2,21 +2,16 @@
 //! The gate's scene under both directions of the force; what is wrong by 2 % fails; a scene of the
 //! user's own, with everything changed, is solved and judged.
 
-use anechoic::commands::{Finished, Options, compare, converge, plan_run, run, show};
+use anechoic::commands::{Finished, Options, compare, converge, plan_run, run};
 use anechoic::error::exit;
-use anechoic::frames::Frames;
 use anechoic::judge::judge_runs;
 use anechoic::judge::references::References;
 use anechoic::over::Over;
 use anechoic::prepare::Request;
-use anechoic::provenance;
-use anechoic::runner::Run;
 use anechoic::scene::Role;
-use anechoic::store::Manifest;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::problem::Problem;
-use anechoic_tests::solved;
-use anechoic_tests::study::{claims, failing, print_claims, value};
+use anechoic_tests::study::{altered, claims, failing, print_claims, value};
 use tempfile::TempDir;
 
 const CASE: &str = "lamb";
@@ -89,26 +84,7 @@ fn failing_when(change: impl Fn(&mut Problem<2>)) -> Vec<String> {
         profile: Some("gate".to_owned()),
         ..Request::default()
     };
-    let prepared = show(&request, None).unwrap_or_else(|error| panic!("{error}"));
-    let mut problem = prepared.scene.problem();
-    change(&mut problem);
-    let record = solved(&problem);
-    let hash = prepared.hash();
-    let run = Run {
-        manifest: Manifest {
-            case: CASE.to_owned(),
-            profile: prepared.profile.clone(),
-            method: prepared.method.clone(),
-            status: record.status.clone(),
-            cost: record.cost.clone(),
-            provenance: provenance::of(&hash),
-            hash,
-            scored: None,
-        },
-        prepared,
-        record,
-        frames: Frames::default(),
-    };
+    let run = altered(&request, None, change);
     failing(&judge_runs(&[run], &References::default()).rows)
 }
 

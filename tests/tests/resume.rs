@@ -1,7 +1,7 @@
 //! Studies that are interrupted and gone on with: the same bits as without the interruption.
 #![cfg(unix)]
 
-use anechoic_tests::program::{anechoic, binary, folder, narrow, read, rows, run_folder};
+use anechoic_tests::program::{anechoic, binary, folder, narrow, read, rows, run_folder, wait_for};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -26,18 +26,6 @@ fn started(folder: &Path, arguments: &[&str]) -> Child {
         .stderr(Stdio::null())
         .spawn()
         .expect("the program starts")
-}
-
-/// Waits until a path is there; the program must still be at work.
-fn wait_for(path: &Path, child: &mut Child) {
-    for _ in 0..6000 {
-        if path.exists() {
-            return;
-        }
-        assert_eq!(child.try_wait().expect("a child"), None, "ended early");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    panic!("{} did not come", path.display());
 }
 
 /// Everything that must not depend on an interruption: records and rows, without what a machine spends.

@@ -1,5 +1,6 @@
 //! Other people's programs: a scene as plain files, their series judged by the rows of ours.
 
+use anechoic_reports::judge::COSTS;
 use anechoic_tests::program::{Output, anechoic, folder, narrow, read, rows, run_folder};
 use serde_json::Value;
 use std::path::Path;
@@ -27,20 +28,9 @@ fn of(rows: &[Value], method: &str) -> Vec<[String; 4]> {
 
 /// What is known of our runs and not of others'.
 fn is_ours_alone(row: &[String; 4]) -> bool {
-    let metrics = [
-        "cpu_s",
-        "wall_s",
-        "peak_bytes",
-        "steps",
-        "iterations",
-        "unknowns",
-        "points",
-        "us_per_point_step",
-        "energy_left",
-        "growth_rate_per_s",
-    ];
+    let metrics = COSTS.iter().chain(&["energy_left", "growth_rate_per_s"]);
     metrics
-        .iter()
+        .into_iter()
         .any(|metric| row[0] == format!("\"{metric}\""))
 }
 

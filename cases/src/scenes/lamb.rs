@@ -26,46 +26,17 @@ mod values;
 
 use crate::certified::causality::{serves_until, with_buffers};
 use crate::checks::Checks;
-use crate::half_space::{Source, TARGET_AND_SOURCE, TargetSpec};
+use crate::half_space::{TARGET_AND_SOURCE, half_space_scene};
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
-use anechoic_solver::probe::Probes;
-use anechoic_solver::problem::{BasisKind, Problem, Scheme};
+use anechoic_solver::problem::Problem;
 use anechoic_solver::wavelet::Wavelet;
-use serde::{Deserialize, Serialize};
 
-/// The scene; `Default` holds its own values.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Lamb {
-    /// Shape functions.
-    pub basis: BasisKind,
-    /// From when on echoes are looked for (s).
-    pub t1_s: f64,
-    /// The body: source and receivers with a margin.
-    pub target: TargetSpec,
-    /// Background grid.
-    pub grid: GridSpec,
-    /// Time integration; the step defaults to 0.0005 s per metre of cell.
-    pub time: TimeSpec,
-    /// Material points.
-    pub points: PointsSpec,
-    /// Linear solver.
-    pub solver: SolverSpec,
-    /// The half-space.
-    pub material: MaterialSpec,
-    /// The force, on the surface.
-    pub source: Source,
-    /// Anywhere in the body but at the source.
-    pub receivers: Vec<ReceiverSpec>,
-    /// Sides; the method under test is left, right and at the bottom.
-    pub boundary: BoundarySpec,
-}
-
-impl Default for Lamb {
-    fn default() -> Self {
-        toml::from_str(values::VALUES).expect("the scene's own values are a scene")
-    }
-}
+half_space_scene!(
+    /// The scene; `Default` holds its own values.
+    Lamb,
+    values::VALUES
+);
 
 /// The registry's entry.
 pub static INFO: SceneInfo = SceneInfo {
@@ -88,9 +59,6 @@ pub static INFO: SceneInfo = SceneInfo {
 /// scene's own material.
 const STEP_PER_METRE: f64 = 0.0005;
 
-/// Energies in a run: enough for pictures.
-const ENERGIES: f64 = 200.0;
-
 impl Lamb {
     /// Time step (s).
     fn dt(&self) -> f64 {
@@ -101,30 +69,7 @@ impl Lamb {
 impl Scene for Lamb {
     fn problem(&self) -> Problem<2> {
         let end = self.time.end_s;
-        let steps = end / self.dt();
-        let problem = Problem {
-            target: self.target.body(),
-            cell_size: self.grid.h_m,
-            basis: self.basis,
-            scheme: self.time.scheme,
-            mass: self.time.mass,
-            dt: self.dt(),
-            end_time: end,
-            point_mode: self.points.mode,
-            transfer: self.points.transfer,
-            points_per_cell: self.points.per_cell,
-            material: self.material.elastic(),
-            sides: self.boundary.sides(),
-            drives: vec![self.source.force()],
-            probes: Probes {
-                receivers: self.receivers.iter().map(ReceiverSpec::probe).collect(),
-                lines: Vec::new(),
-                snapshot_times: vec![0.5 * end, end],
-                energy_every: Some((steps / ENERGIES).ceil().max(1.0) as usize),
-            },
-            solver: self.solver.kind,
-            rel_tol: self.solver.rel_tol,
-        };
+        let problem = self.0.problem(self.dt(), vec![0.5 * end, end]);
         with_buffers(&problem, 1.0)
     }
 
@@ -133,12 +78,7 @@ impl Scene for Lamb {
     }
 
     fn check(&self, checks: &mut Checks<'_>) {
-        let body = self.target.body();
-        self.target.check(checks);
-        checks.layers(&self.boundary, self.target.size());
-        checks.points(&self.points);
-        checks.receivers(&self.receivers, &body);
-        self.source.check(checks, &body, self.time.end_s);
+        self.0.check(checks, self.dt());
         checks.require(self.source.y_m == 0.0, "source.y_m", || {
             format!(
                 "{} m is not on the surface, where Lamb's force acts; allowed: 0",
@@ -164,16 +104,6 @@ impl Scene for Lamb {
                 )
             });
         }
-        checks.step(self.dt(), self.time.end_s);
-        checks.require(self.t1_s < self.time.end_s, "t1_s", || {
-            format!(
-                "no time is left for echoes: the run ends at time.end_s = {} s",
-                self.time.end_s
-            )
-        });
-        checks.require(self.time.scheme == Scheme::Newmark, "time.scheme", || {
-            "a pulse is lost without inertia; allowed: \"newmark\"".into()
-        });
     }
 
     fn pulse_amplitude(&self) -> Option<f64> {
@@ -181,14 +111,7 @@ impl Scene for Lamb {
     }
 
     fn windows(&self) -> Vec<Window> {
-        let window = |receiver: &ReceiverSpec| Window {
-            receiver: receiver.name.clone(),
-            label: String::new(),
-            from_s: self.t1_s,
-            to_s: None,
-            stated_by: None,
-        };
-        self.receivers.iter().map(window).collect()
+        self.0.windows()
     }
 
     fn references(&self, times: &[f64]) -> Result<Vec<Reference>, String> {
@@ -200,7 +123,7 @@ impl Scene for Lamb {
     }
 
     fn cell_m(&self) -> f64 {
-        self.grid.cell_m(&self.target.body())
+        self.0.cell_m()
     }
 
     fn orders(&self, sizes: &[f64]) -> Vec<SceneClaim> {

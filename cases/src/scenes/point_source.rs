@@ -27,46 +27,17 @@ mod paper;
 mod values;
 
 use crate::checks::Checks;
-use crate::half_space::{Source, TARGET_AND_SOURCE, TargetSpec};
+use crate::half_space::{TARGET_AND_SOURCE, half_space_scene};
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
 use anechoic_solver::boundary::SideMethod;
-use anechoic_solver::probe::Probes;
-use anechoic_solver::problem::{BasisKind, Problem, Scheme};
-use serde::{Deserialize, Serialize};
+use anechoic_solver::problem::Problem;
 
-/// The scene; `Default` holds the paper's values.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PointSource {
-    /// Shape functions.
-    pub basis: BasisKind,
-    /// From when on echoes are looked for (s).
-    pub t1_s: f64,
-    /// The body of interest.
-    pub target: TargetSpec,
-    /// Background grid.
-    pub grid: GridSpec,
-    /// Time integration.
-    pub time: TimeSpec,
-    /// Material points.
-    pub points: PointsSpec,
-    /// Linear solver.
-    pub solver: SolverSpec,
-    /// Soil.
-    pub material: MaterialSpec,
-    /// The force.
-    pub source: Source,
-    /// A along the surface, B downward, C along the diagonal.
-    pub receivers: Vec<ReceiverSpec>,
-    /// Sides; the method under test is left, right and at the bottom.
-    pub boundary: BoundarySpec,
-}
-
-impl Default for PointSource {
-    fn default() -> Self {
-        toml::from_str(values::PAPER).expect("the paper's values are a scene")
-    }
-}
+half_space_scene!(
+    /// The scene; `Default` holds the paper's values.
+    PointSource,
+    values::PAPER
+);
 
 /// The registry's entry.
 pub static INFO: SceneInfo = SceneInfo {
@@ -88,9 +59,6 @@ pub static INFO: SceneInfo = SceneInfo {
 /// Times (s) at which the paper shows the field.
 const SNAPSHOTS: [f64; 4] = [2.0, 4.0, 6.0, 10.0];
 
-/// Energies in a run: enough for pictures and for the growth rate's windows.
-const ENERGIES: f64 = 200.0;
-
 impl PointSource {
     /// Time step (s).
     fn dt(&self) -> f64 {
@@ -101,30 +69,8 @@ impl PointSource {
 impl Scene for PointSource {
     fn problem(&self) -> Problem<2> {
         let end = self.time.end_s;
-        let steps = end / self.dt();
-        Problem {
-            target: self.target.body(),
-            cell_size: self.grid.h_m,
-            basis: self.basis,
-            scheme: self.time.scheme,
-            mass: self.time.mass,
-            dt: self.dt(),
-            end_time: end,
-            point_mode: self.points.mode,
-            transfer: self.points.transfer,
-            points_per_cell: self.points.per_cell,
-            material: self.material.elastic(),
-            sides: self.boundary.sides(),
-            drives: vec![self.source.force()],
-            probes: Probes {
-                receivers: self.receivers.iter().map(ReceiverSpec::probe).collect(),
-                lines: Vec::new(),
-                snapshot_times: SNAPSHOTS.into_iter().filter(|t| *t <= end).collect(),
-                energy_every: Some((steps / ENERGIES).ceil().max(1.0) as usize),
-            },
-            solver: self.solver.kind,
-            rel_tol: self.solver.rel_tol,
-        }
+        let shown = SNAPSHOTS.into_iter().filter(|t| *t <= end);
+        self.0.problem(self.dt(), shown.collect())
     }
 
     fn boundary(&self) -> &BoundarySpec {
@@ -132,22 +78,7 @@ impl Scene for PointSource {
     }
 
     fn check(&self, checks: &mut Checks<'_>) {
-        let body = self.target.body();
-        self.target.check(checks);
-        checks.layers(&self.boundary, self.target.size());
-        checks.points(&self.points);
-        checks.receivers(&self.receivers, &body);
-        self.source.check(checks, &body, self.time.end_s);
-        checks.step(self.dt(), self.time.end_s);
-        checks.require(self.t1_s < self.time.end_s, "t1_s", || {
-            format!(
-                "no time is left for echoes: the run ends at time.end_s = {} s",
-                self.time.end_s
-            )
-        });
-        checks.require(self.time.scheme == Scheme::Newmark, "time.scheme", || {
-            "a pulse is lost without inertia; allowed: \"newmark\"".into()
-        });
+        self.0.check(checks, self.dt());
     }
 
     fn pulse_amplitude(&self) -> Option<f64> {
@@ -155,14 +86,7 @@ impl Scene for PointSource {
     }
 
     fn windows(&self) -> Vec<Window> {
-        let window = |receiver: &ReceiverSpec| Window {
-            receiver: receiver.name.clone(),
-            label: String::new(),
-            from_s: self.t1_s,
-            to_s: None,
-            stated_by: None,
-        };
-        self.receivers.iter().map(window).collect()
+        self.0.windows()
     }
 
     fn references(&self, _times: &[f64]) -> Result<Vec<Reference>, String> {
@@ -189,6 +113,6 @@ impl Scene for PointSource {
     }
 
     fn cell_m(&self) -> f64 {
-        self.grid.cell_m(&self.target.body())
+        self.0.cell_m()
     }
 }

@@ -30,7 +30,7 @@ fn cloud<B: Basis>(basis: B) -> Cloud<B> {
         })
         .collect();
     let mut disc = GridDiscretisation::new(grid, basis, 4);
-    disc.place(&places).unwrap();
+    disc.place(&places).expect("the cloud lies within the grid");
     (disc, places)
 }
 
