@@ -18,6 +18,7 @@ const METRICS: &[&str] = &[
     "peak_deviation",
     "arrival_s",
     "order",
+    "largest_rise",
     "energy_left",
     "growth_rate_per_s",
     "serves_until_s",

@@ -9,7 +9,7 @@
 //!   back instead of solved; [`foreign`]: series of other programs.
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
-//! - [`over`]: levels of convergence studies.
+//! - [`over`]: levels of convergence studies; [`sweep`]: points of sweeps.
 //! - [`commands`], [`cli`]: the program.
 
 pub mod certified;
@@ -37,3 +37,4 @@ pub mod scenes;
 pub mod spec;
 pub mod store;
 pub mod study;
+pub mod sweep;

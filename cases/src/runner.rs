@@ -10,6 +10,7 @@ use crate::store::{Manifest, Store};
 use anechoic_solver::record::{Cost, Record, SeriesTable, Status};
 use anechoic_solver::solve;
 use cpu_time::ThreadTime;
+use rayon::ThreadPool;
 use rayon::prelude::*;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -82,11 +83,7 @@ pub fn run_all(
     store: &Store,
 ) -> Result<Vec<Run>, CaseError> {
     let progress = Progress::new(tasks.iter().map(Task::work).sum());
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(jobs)
-        .build()
-        .map_err(|error| CaseError::Usage(format!("--jobs {jobs}: {error}")))?;
-    let runs = pool.install(|| {
+    let runs = pool(jobs)?.install(|| {
         tasks
             .into_par_iter()
             .with_max_len(1)
@@ -101,6 +98,17 @@ pub fn run_all(
     });
     progress.finish();
     runs
+}
+
+/// Threads for `jobs` runs at a time.
+///
+/// # Errors
+/// [`CaseError::Usage`] when the system has none left.
+pub fn pool(jobs: usize) -> Result<ThreadPool, CaseError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(jobs)
+        .build()
+        .map_err(|error| CaseError::Usage(format!("--jobs {jobs}: {error}")))
 }
 
 /// Solves one scene on this thread and measures what it costs.

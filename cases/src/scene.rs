@@ -3,6 +3,7 @@
 use crate::checks::Checks;
 use crate::field::Field;
 use crate::spec::BoundarySpec;
+use crate::sweep::named::NamedSweep;
 use anechoic_reference::claim::{Claim, Evidence};
 use anechoic_reports::study::Finding;
 use anechoic_solver::problem::Problem;
@@ -199,6 +200,8 @@ pub struct SceneInfo {
     pub methods: &'static [Overlay],
     /// Methods taken apart: variants of a method, named `METHOD/VARIANT`, that `ablation` compares.
     pub ablation: &'static [Overlay],
+    /// Sweeps that belong to it.
+    pub sweeps: &'static [&'static NamedSweep],
     /// What the paper says and how it fares: finding, place, note.
     pub ledger: &'static [(Finding, &'static str, &'static str)],
     /// The method that absorbs nothing, over which echoes are taken.

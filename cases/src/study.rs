@@ -9,7 +9,7 @@ pub mod stored;
 use crate::certified::library::Library;
 use crate::error::CaseError;
 use crate::judge::references::References;
-use crate::judge::{Judged, PAPER, REFERENCE, judge_levels, judge_runs, rows_unread};
+use crate::judge::{Judged, PAPER, REFERENCE, judge_levels, judge_points, judge_runs, rows_unread};
 use crate::pictures::{self, Picture, animation};
 use crate::runner::Run;
 use crate::store::{save_rows, write_file};
@@ -20,6 +20,7 @@ use anechoic_reports::plot::PlotError;
 use anechoic_reports::provenance::Provenance;
 use anechoic_reports::ranking::{Floor, Ranking};
 use anechoic_reports::row::Row;
+use anechoic_reports::sweep::Sweep;
 use anechoic_reports::study::{self as reports, Figure, LedgerEntry, RunSummary};
 use anechoic_solver::record::Status;
 pub use kind::Kind;
@@ -43,6 +44,8 @@ pub struct Published {
     pub rows: Vec<Row>,
     /// Errors on several levels, where a scene was refined.
     pub convergence: Option<Convergence>,
+    /// Methods at several points, where parameters were varied.
+    pub sweep: Option<Sweep>,
     /// The runs' names, which tell them apart.
     pub names: Vec<String>,
     /// Methods by their echo; `None` when no echo ratio was measured.
@@ -65,7 +68,11 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
     let folder = study.folder.as_path();
     let results = folder.parent().unwrap_or(folder);
     let references = References::gather(&study.runs, &Library::of_results(results));
-    let (mut judged, convergence) = judge_study(&study, &references);
+    let Told {
+        mut judged,
+        convergence,
+        sweep,
+    } = judge_study(&study, &references);
     take_in_damage(&study, &mut judged);
     for run in &study.runs {
         let own = judged.rows.iter().filter(|row| study.kind.owns(run, row));
@@ -87,9 +94,10 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         write_file(&folder.join(name), made.as_bytes())?;
     }
     let ranking = rank(&judged.rows);
-    let gallery = match &convergence {
-        Some(convergence) => pictures::draw_convergence(convergence),
-        None => pictures::draw(&study.runs, &study.kind, &ranking, &references),
+    let gallery = match (&convergence, &sweep) {
+        (Some(convergence), _) => pictures::draw_convergence(convergence),
+        (None, Some(sweep)) => pictures::draw_sweep(sweep),
+        (None, None) => pictures::draw(&study.runs, &study.kind, &ranking, &references),
     };
     let mut notes = judged.notes;
     notes.extend(gallery.notes);
@@ -102,7 +110,7 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         match save_picture(folder, picture) {
             Ok(figure) => figures.push(figure),
             Err(CaseError::Report { reason, .. }) => {
-                notes.push(pictures::missing(picture.name, &reason));
+                notes.push(pictures::missing(&picture.name, &reason));
             }
             Err(error) => return Err(error),
         }
@@ -119,9 +127,10 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
             None
         }
     };
-    // Levels of one method are not ranked.
-    let ranked =
-        convergence.is_none() && ranking.methods.iter().any(|method| method.echo.is_some());
+    // Levels and points are not ranked.
+    let ranked = convergence.is_none()
+        && sweep.is_none()
+        && ranking.methods.iter().any(|method| method.echo.is_some());
     let published = Published {
         names: study.runs.iter().map(|run| study.kind.name(run)).collect(),
         report: folder.join("report.html"),
@@ -129,6 +138,7 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         damaged: study.damaged,
         rows: judged.rows,
         convergence,
+        sweep,
         ranking: ranked.then_some(ranking),
         reference_missing: judged.reference_missing,
         notes,
@@ -140,17 +150,44 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
     Ok(published)
 }
 
-/// The rows of the runs that can be read, and the errors on their levels.
-fn judge_study(study: &Study, references: &References) -> (Judged, Option<Convergence>) {
+/// What judging a study gives.
+#[derive(Default)]
+struct Told {
+    judged: Judged,
+    convergence: Option<Convergence>,
+    sweep: Option<Sweep>,
+}
+
+/// The rows of the runs that can be read, and what they make on levels or at points.
+fn judge_study(study: &Study, references: &References) -> Told {
     match &study.kind {
         Kind::Convergence { over } => {
             let lost = study.damaged.first().map(|damage| {
                 let name = study.kind.name_of_damage(damage);
                 format!("a level is missing: {name}: {}", damaged(damage))
             });
-            judge_levels(&study.runs, over, references, lost)
+            let (judged, convergence) = judge_levels(&study.runs, over, references, lost);
+            Told {
+                judged,
+                convergence,
+                ..Told::default()
+            }
         }
-        Kind::Comparison | Kind::Ablation => (judge_runs(&study.runs, references), None),
+        Kind::Sweep(grid) => {
+            let (judged, sweep) = judge_points(&study.runs, grid, references);
+            Told {
+                judged,
+                sweep: Some(sweep),
+                ..Told::default()
+            }
+        }
+        Kind::Comparison | Kind::Ablation => {
+            let runs: Vec<&Run> = study.runs.iter().collect();
+            Told {
+                judged: judge_runs(&runs, references),
+                ..Told::default()
+            }
+        },
     }
 }
 
@@ -159,7 +196,7 @@ fn take_in_damage(study: &Study, judged: &mut Judged) {
     for damage in &study.damaged {
         let (name, why) = (study.kind.name_of_damage(damage), damaged(damage));
         // Methods share their scene but for its sides, so that any knows the claims; levels have none.
-        if !matches!(study.kind, Kind::Convergence { .. })
+        if matches!(study.kind, Kind::Comparison | Kind::Ablation)
             && let Some(like) = study.runs.first()
         {
             judged.rows.extend(rows_unread(like, &name, &why));
@@ -191,6 +228,7 @@ fn describe(
         command,
         rows: published.rows.clone(),
         convergence: published.convergence.clone(),
+        sweep: published.sweep.clone(),
         ranking: published.ranking.clone(),
         runs: published
             .runs
@@ -270,8 +308,8 @@ fn rank(rows: &[Row]) -> Ranking {
 
 /// Writes a picture as SVG and PNG, and gives it as the report shows it.
 fn save_picture(folder: &Path, picture: &Picture) -> Result<Figure, CaseError> {
-    let wrong = |e: PlotError| failed(picture.name, &e);
-    let path = folder.join(picture.name);
+    let wrong = |e: PlotError| failed(&picture.name, &e);
+    let path = folder.join(&picture.name);
     let svg = picture.drawing.to_svg().map_err(wrong)?;
     let png = picture.drawing.to_png().map_err(wrong)?;
     write_file(&path.with_extension("svg"), svg.as_bytes())?;
@@ -281,7 +319,7 @@ fn save_picture(folder: &Path, picture: &Picture) -> Result<Figure, CaseError> {
     } else {
         Figure::of_lines
     };
-    figure(picture.title, &picture.caption, &picture.drawing).map_err(wrong)
+    figure(&picture.title, &picture.caption, &picture.drawing).map_err(wrong)
 }
 
 fn failed(what: &str, error: &dyn std::fmt::Display) -> CaseError {

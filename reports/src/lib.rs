@@ -11,6 +11,7 @@
 //! - [`row`]: the flat rows that everything ends in.
 //! - [`ranking`]: methods by their echo, cost beside it, down to the floor of the reference.
 //! - [`convergence`]: errors on several levels, and the orders they fall with.
+//! - [`sweep`]: methods at several points of their parameters.
 //! - [`table`], [`export`]: rows for the terminal and for other programs.
 //! - [`diff`](mod@diff): what changed from one list of rows to another.
 //! - [`plot`]: pictures as SVG and PNG, one file a kind.
@@ -32,4 +33,5 @@ pub mod provenance;
 pub mod ranking;
 pub mod row;
 pub mod study;
+pub mod sweep;
 pub mod table;

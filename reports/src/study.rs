@@ -1,6 +1,7 @@
 //! Everything that a report shows, as data.
 
 use crate::convergence::Convergence;
+use crate::sweep::Sweep;
 use crate::plot::{Drawing, PlotError};
 use crate::provenance::Provenance;
 use crate::ranking::Ranking;
@@ -28,6 +29,9 @@ pub struct Study {
     /// Errors on several levels, where a scene was refined.
     #[serde(default)]
     pub convergence: Option<Convergence>,
+    /// Methods at several points of their parameters, where those were varied.
+    #[serde(default)]
+    pub sweep: Option<Sweep>,
     /// The runs, complete or not.
     pub runs: Vec<RunSummary>,
     /// What the case says about its source.

@@ -4,6 +4,7 @@ use crate::convergence::{Convergence, Curve};
 use crate::format;
 use crate::ranking::{Ranked, Ranking};
 use crate::row::{Row, Verdict};
+use crate::sweep::{self, Sweep};
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
 
 /// The claims among `rows` with their verdicts; failures say why the bound is what it is.
@@ -114,6 +115,25 @@ pub fn convergence_table(convergence: &Convergence) -> String {
         table.add_row(convergence_cells(curve));
     }
     finish(&table, "")
+}
+
+/// Echo and cost of all methods at all points, part by part.
+pub fn sweep_table(sweep: &Sweep) -> String {
+    let mut text = String::new();
+    for part in &sweep.parts {
+        let head = sweep::head(part);
+        let mut table = new_table(&head.iter().map(String::as_str).collect::<Vec<_>>());
+        align_right(&mut table, &(2..head.len()).collect::<Vec<_>>());
+        for row in sweep::cells(part) {
+            table.add_row(row);
+        }
+        let note = format!(
+            "echo ratio of each group; late: displacement at {} after t1 (m)\n\n",
+            part.late_at
+        );
+        text += &format!("{}\n{}", part.title, finish(&table, &note));
+    }
+    text
 }
 
 /// Head of the table of a convergence study.

@@ -354,6 +354,7 @@ fn an_empty_study_claims_nothing() {
         rows: vec![],
         ranking: None,
         convergence: None,
+        sweep: None,
         runs: vec![],
         ledger: vec![],
         notes: vec![],

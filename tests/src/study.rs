@@ -97,6 +97,7 @@ pub fn judged(methods: &[&str], change: impl Fn(&str, &mut Problem<2>)) -> Vec<R
     let run = |method: &&str| altered(&request, Some(method), |problem| change(method, problem));
     let runs: Vec<Run> = methods.iter().map(run).collect();
     // The column's references are closed forms and its own runs.
+    let runs: Vec<&Run> = runs.iter().collect();
     judge_runs(&runs, &References::default()).rows
 }
 

@@ -85,7 +85,7 @@ fn failing_when(change: impl Fn(&mut Problem<2>)) -> Vec<String> {
         ..Request::default()
     };
     let run = altered(&request, None, change);
-    failing(&judge_runs(&[run], &References::default()).rows)
+    failing(&judge_runs(&[&run], &References::default()).rows)
 }
 
 #[test]

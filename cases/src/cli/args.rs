@@ -18,6 +18,7 @@ Examples:
   anechoic run my.toml
   anechoic ablation point-source                      what each part of a method absorbs
   anechoic converge lamb --over grid.h_m=20,10        the order with which errors fall
+  anechoic sweep point-source --over pml.thickness_m=100..400:100
   anechoic report results                             rebuild the report from records
   anechoic diff before after                          what moved between two results
   anechoic score compression-1d series.csv            another program's series beside ours
@@ -39,6 +40,17 @@ Examples:
   anechoic converge lamb --over grid.h_m=20,10,5
   anechoic converge compression-1d --over grid.h_m=4,2,1,0.5 --set source.wavelet=sine-squared
   anechoic converge compression-1d --over pml.thickness_m=40,20,10 --method pml";
+
+const SWEEP_EXAMPLES: &str = "\
+The scene is a case, a file, or a named sweep: appendix-a, or a part of it, as appendix-a/thickness.
+
+Examples:
+  anechoic sweep point-source --over pml.thickness_m=100..400:100
+  anechoic sweep point-source --over pml.thickness_m,damping-layer.thickness_m=200,400,800
+  anechoic sweep compression-1d --over grid.h_m=2,1 --over dashpot.impedance=0.5,1,2
+  anechoic sweep point-source --method pml-stretched \\
+    --over pml-stretched.alpha=0.8..4:0.8/pml-stretched.thickness_m=200..1000:200
+  anechoic sweep appendix-a --dry-run                 all points of K25, Appendix A";
 
 /// Measures how much echo boundary methods leave in particle geomechanics.
 #[derive(Debug, Parser)]
@@ -88,6 +100,9 @@ pub enum Command {
     /// Refine a scene with one method: errors on all levels, and the order they fall with.
     #[command(after_help = CONVERGE_EXAMPLES)]
     Converge(ConvergeArgs),
+    /// Vary fields of a scene or a method's parameters: echo and cost of several methods at all points.
+    #[command(after_help = SWEEP_EXAMPLES)]
+    Sweep(SweepArgs),
     /// Compute a scene's certified reference and its floor, and store it.
     ///
     /// Its floor is how much it changes under a larger buffer and a tenth of the solver's tolerance:
@@ -233,6 +248,30 @@ impl ConvergeArgs {
     pub fn options(&self) -> Options {
         Options {
             methods: self.method.iter().cloned().collect(),
+            ..self.work.options()
+        }
+    }
+}
+
+/// Which scene, which methods, which points.
+#[derive(Debug, Args)]
+pub struct SweepArgs {
+    /// What is varied: a list or a range `FROM..TO:STEP`; fields that have the same values are joined
+    /// by `,`, fields that advance together by `/`; repeated, axes are crossed.
+    #[arg(long, value_name = "FIELD=VALUES")]
+    pub over: Vec<String>,
+    /// Boundary method; repeatable [default: those whose parameters are varied, else all that apply].
+    #[arg(long)]
+    method: Vec<String>,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+impl SweepArgs {
+    /// The options, with the command as typed.
+    pub fn options(&self) -> Options {
+        Options {
+            methods: self.method.clone(),
             ..self.work.options()
         }
     }

@@ -73,6 +73,12 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             let solve = || commands::converge(&options, &over);
             return solve_or_show(&converge.work, &options, &plan, solve);
         }
+        Some(Command::Sweep(sweep)) => {
+            let (options, over) = (sweep.options(), &sweep.over);
+            let plan = commands::plan_sweep(&options, over)?;
+            let solve = || commands::sweep(&options, over);
+            return solve_or_show(&sweep.work, &options, &plan, solve);
+        }
         Some(Command::Reference { scene, into }) => {
             stop_on_interrupt()?;
             let recomputed = commands::reference(&scene.request(), into)?;

@@ -6,6 +6,7 @@ mod plan;
 mod score;
 
 use crate::certified::Certified;
+use crate::certified::key;
 use crate::certified::library::Library;
 use crate::certified::solve::{compute, difference, measure_floor};
 use crate::error::{CaseError, exit};
@@ -14,13 +15,16 @@ use crate::frames::Sampling;
 use crate::over::Over;
 use crate::prepare::{Prepared, Request, Target};
 use crate::resume::{Reuse, Todo, folder, tasks};
-use crate::runner::{Task, run_all};
+use crate::runner::{Task, pool, run_all};
 use crate::store::Store;
 use crate::study::stored::{Found, Study, find_studies};
 use crate::study::{ANIMATION, Kind, Published, publish};
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
+use anechoic_solver::problem::Problem;
 use anechoic_solver::record::Status;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 pub use diff::compare_rows;
 pub use export::{Exported, export};
 pub use plan::Plan;
@@ -202,6 +206,22 @@ pub fn converge(options: &Options, over: &Over) -> Result<Finished, CaseError> {
     execute(Plan::converge(options, over)?, options)
 }
 
+/// What `sweep` would do.
+///
+/// # Errors
+/// Whatever is wrong with the request.
+pub fn plan_sweep(options: &Options, over: &[String]) -> Result<Plan, CaseError> {
+    Plan::sweep(options, over)
+}
+
+/// Solves one scene at the points of a sweep, with several methods: a named sweep, or what `over` says.
+///
+/// # Errors
+/// As [`run`].
+pub fn sweep(options: &Options, over: &[String]) -> Result<Finished, CaseError> {
+    execute(Plan::sweep(options, over)?, options)
+}
+
 /// A certified reference that was computed.
 #[derive(Debug)]
 pub struct Recomputed {
@@ -321,7 +341,7 @@ fn execute_tasks(
         damaged: Vec::new(),
     };
     let scenes = tasks.iter().map(Task::scene);
-    provide_references(scenes, &Library::of_results(&options.out))?;
+    provide_references(scenes, &Library::of_results(&options.out), options.jobs)?;
     study.announce()?;
     // One of earlier runs would not show these; that there is none is no failure.
     let _ = std::fs::remove_file(store.folder().join(ANIMATION));
@@ -329,22 +349,33 @@ fn execute_tasks(
     Finished::new(publish(Study { runs, ..study })?, filter)
 }
 
-/// Solves for the certified references that the scenes need and that nobody has stored.
+/// Solves for the certified references that the scenes need and that nobody has stored, `jobs` at a
+/// time.
 ///
 /// One that cannot be computed is no error here: the runs go on, and their claims say why they were
 /// not evaluated.
 fn provide_references<'a>(
     scenes: impl Iterator<Item = &'a Prepared>,
     library: &Library,
+    jobs: usize,
 ) -> Result<(), CaseError> {
+    let mut problems = BTreeMap::new();
     for scene in scenes {
-        let Some(problem) = scene.scene.extended() else {
-            continue;
-        };
-        match library.obtain(scene.info.name, &problem) {
-            Ok(_) | Err(CaseError::Solver(_) | CaseError::Stopped(_)) => {}
-            Err(error) => return Err(error),
+        if let Some(problem) = scene.scene.extended() {
+            let hash = key::hash(&key::table(&problem));
+            problems.insert(hash, (scene.info.name, problem));
         }
     }
-    Ok(())
+    let obtain = |(_, (case, problem)): (_, (&str, Problem<2>))| match library.obtain(case, &problem)
+    {
+        Ok(_) | Err(CaseError::Solver(_) | CaseError::Stopped(_)) => Ok(()),
+        Err(error) => Err(error),
+    };
+    let problems: Vec<_> = problems.into_iter().collect();
+    pool(jobs)?.install(|| {
+        problems
+            .into_par_iter()
+            .with_max_len(1)
+            .try_for_each(obtain)
+    })
 }

@@ -1,6 +1,7 @@
 //! Which scenes a command solves.
 
 mod levels;
+mod points;
 
 use super::Options;
 use crate::error::{CaseError, Complaint};
@@ -209,6 +210,11 @@ impl Plan {
             filter,
             left_out: Vec::new(),
         })
+    }
+
+    /// One scene at the points of a sweep, with several methods.
+    pub(super) fn sweep(options: &Options, over: &[String]) -> Result<Self, CaseError> {
+        points::sweep(options, over)
     }
 
     /// Folder of the study in a results folder.

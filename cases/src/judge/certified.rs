@@ -14,9 +14,9 @@ pub const CERTIFIER: &str = "extended";
 const NAME: &str = "extended-run";
 
 /// The run that certifies the others, if the study has it.
-pub(super) fn certifier(runs: &[Run]) -> Option<&Run> {
-    runs.iter()
-        .find(|run| run.manifest.method == CERTIFIER && run.complete())
+pub(super) fn certifier<'a>(runs: &[&'a Run]) -> Option<&'a Run> {
+    let mut runs = runs.iter().copied();
+    runs.find(|run| run.manifest.method == CERTIFIER && run.complete())
 }
 
 /// Residuals of a run against the extended one, where a claim asks for them; of the extended run

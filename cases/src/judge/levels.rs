@@ -29,7 +29,7 @@ pub fn judge_levels(
     let levels: Vec<Level> = runs.iter().map(|run| level(run, field)).collect();
     let measured: Vec<Measured> = runs
         .iter()
-        .map(|run| super::measured(run, std::slice::from_ref(run), references))
+        .map(|run| super::measured(run, &[run], references))
         .collect();
     let convergence = Convergence {
         over: field.to_owned(),

@@ -6,6 +6,7 @@ mod foreign;
 mod goodness;
 mod levels;
 mod papers;
+mod points;
 pub mod references;
 mod rows;
 mod series;
@@ -13,6 +14,7 @@ mod subject;
 
 pub use certified::CERTIFIER;
 pub use levels::judge_levels;
+pub use points::judge_points;
 pub use rows::rows_unread;
 pub use series::{traces, traces_of};
 
@@ -47,9 +49,9 @@ pub struct Judged {
 }
 
 /// Judges runs of one study; ratios are taken over the run of the scene's standard method.
-pub fn judge_runs(runs: &[Run], references: &References) -> Judged {
+pub fn judge_runs(runs: &[&Run], references: &References) -> Judged {
     let mut judged = Judged::default();
-    for run in runs {
+    for &run in runs {
         let measured = measured(run, runs, references);
         let claims = run.prepared.scene.claims();
         let rows = rows_of(
@@ -86,7 +88,7 @@ struct Measured {
 }
 
 /// Everything that is measured of a run of a study.
-fn measured(run: &Run, runs: &[Run], references: &References) -> Measured {
+fn measured(run: &Run, runs: &[&Run], references: &References) -> Measured {
     let mut numbers = match run.manifest.scored {
         // Nobody knows what it cost.
         Some(_) => Vec::new(),
@@ -97,7 +99,7 @@ fn measured(run: &Run, runs: &[Run], references: &References) -> Measured {
         Status::Complete => {
             let extended = certified::certifier(runs);
             missing.extend(certified::measure(run, extended, &mut numbers).err());
-            let first = runs.first().is_some_and(|first| std::ptr::eq(first, run));
+            let first = runs.first().is_some_and(|first| std::ptr::eq(*first, run));
             measure(run, references, standard_of(run, runs), first, &mut numbers)
                 .and_then(|()| foreign::recognised(run, &mut numbers))
         }

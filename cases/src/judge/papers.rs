@@ -7,7 +7,7 @@ use anechoic_reference::paper::{PaperValue, values_of};
 use anechoic_reports::row::Row;
 
 /// The printed numbers of the test that the runs are, for the methods that were run.
-pub(super) fn rows(runs: &[Run]) -> Vec<Row> {
+pub(super) fn rows(runs: &[&Run]) -> Vec<Row> {
     let Some(first) = runs.first() else {
         return Vec::new();
     };

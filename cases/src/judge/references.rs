@@ -69,7 +69,7 @@ impl References {
 
 /// The standard run that belongs to a run: of the standard method, or a variant of it, under the same
 /// discretisation.
-pub fn standard_of<'a>(run: &Run, runs: &'a [Run]) -> Option<&'a Run> {
+pub fn standard_of<'a>(run: &Run, runs: &[&'a Run]) -> Option<&'a Run> {
     let name = run.prepared.info.standard;
     let is_standard = |other: &Run| {
         let method = other.manifest.method.as_str();
@@ -79,8 +79,8 @@ pub fn standard_of<'a>(run: &Run, runs: &'a [Run]) -> Option<&'a Run> {
                 .is_some_and(|rest| rest.starts_with('/'))
     };
     let own = hash(run);
-    runs.iter()
-        .find(|other| other.complete() && is_standard(other) && hash(other) == own)
+    let mut runs = runs.iter().copied();
+    runs.find(|other| other.complete() && is_standard(other) && hash(other) == own)
 }
 
 /// The hash of a run's certified reference, if it needs one.

@@ -53,8 +53,8 @@ pub(super) fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError>
     }
     .draw()?;
     Ok(Some(Picture {
-        name: "space-time",
-        title: "Waves in space and time",
+        name: "space-time".into(),
+        title: "Waves in space and time".into(),
         caption: "Waves are slanted bands; a band that turns round at the base is echo. Dashed: receivers, and the upper edge of a layer inside the body. All methods share one scale.".into(),
         drawing,
         raster: true,
@@ -112,8 +112,8 @@ pub(super) fn snapshots(
     }
     .draw()?;
     Ok(Some(Picture {
-        name: "snapshots",
-        title: "Displacement in the target",
+        name: "snapshots".into(),
+        title: "Displacement in the target".into(),
         caption: "Grey: material around the target, in the middle the method's layer with its outer edge. One scale for all.".into(),
         drawing,
         raster: true,

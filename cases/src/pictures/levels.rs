@@ -64,8 +64,8 @@ fn picture(
     }
     .draw()?;
     Ok(Some(Picture {
-        name,
-        title,
+        name: name.into(),
+        title: title.into(),
         caption: format!(
             "`{metric}` of {} at the receivers, on logarithmic axes; the triangle has the slope of a scheme of second order.",
             convergence.method

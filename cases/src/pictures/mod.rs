@@ -3,8 +3,10 @@
 pub mod animation;
 mod fields;
 mod levels;
+mod points;
 
 pub use levels::draw_convergence;
+pub use points::draw_sweep;
 
 use crate::judge::references::References;
 use crate::judge::{traces, traces_of};
@@ -27,9 +29,9 @@ const NO_ECHO: &str = "no echo";
 #[derive(Debug)]
 pub struct Picture {
     /// File name without extension.
-    pub name: &'static str,
+    pub name: String,
     /// Title.
-    pub title: &'static str,
+    pub title: String,
     /// What it shows and how to read it.
     pub caption: String,
     /// The picture.
@@ -148,8 +150,8 @@ fn series(runs: &[&Run], reference: Option<&Reference>) -> Result<Picture, Pictu
     }
     .draw()?;
     Ok(Picture {
-        name: "receivers",
-        title: "Motion of the receivers",
+        name: "receivers".into(),
+        title: "Motion of the receivers".into(),
         caption: "All methods over the reference without echo; what departs from it is echo."
             .into(),
         drawing,
@@ -198,8 +200,8 @@ fn echo(
     }
     let floor = ranking.floor.as_ref().map(|floor| floor.value);
     Ok(Some(Picture {
-        name: "echo",
-        title: "Echo against time",
+        name: "echo".into(),
+        title: "Echo against time".into(),
         caption: "Distance to the reference without echo, over the standard run's peak, as the largest value of a fiftieth of the run. The line is the floor of the reference.".into(),
         drawing: EchoPlot { panels, floor }.draw()?,
         raster: false,
@@ -259,8 +261,8 @@ fn bars(ranking: &Ranking) -> Result<Option<Picture>, PictureError> {
     }
     .draw()?;
     Ok(Some(Picture {
-        name: "ranking",
-        title: "Echo and cost",
+        name: "ranking".into(),
+        title: "Echo and cost".into(),
         caption: "Echo ratio of each method (log axis; zero is perfect) with what it costs. Methods at or below the floor cannot be told apart.".into(),
         drawing,
         raster: false,
@@ -319,8 +321,8 @@ fn parts(runs: &[&Run], ranking: &Ranking) -> Result<Option<Picture>, PictureErr
     }
     .draw()?;
     Ok(Some(Picture {
-        name: "ablation",
-        title: "What each part absorbs",
+        name: "ablation".into(),
+        title: "What each part absorbs".into(),
         caption: "Echo ratio of each variant (log axis; one is a fixed edge), the energy left in the target after t1, and how fast the total energy grows in the second half of the run, where it does.".into(),
         drawing,
         raster: false,
@@ -368,8 +370,8 @@ fn energy(runs: &[&Run], references: &References) -> Result<Option<Picture>, Pic
     }
     .draw()?;
     Ok(Some(Picture {
-        name: "energy",
-        title: "Energy in the body",
+        name: "energy".into(),
+        title: "Energy in the body".into(),
         caption: "Kinetic and strain energy of the body; what a method absorbs is gone.".into(),
         drawing,
         raster: false,

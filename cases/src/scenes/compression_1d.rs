@@ -84,6 +84,7 @@ pub static INFO: SceneInfo = SceneInfo {
     presets: values::PRESETS,
     methods: values::METHODS,
     ablation: &[],
+    sweeps: &[],
     ledger: paper::LEDGER,
     standard: "fixed",
     defaults: scene::defaults::<Compression1d>,

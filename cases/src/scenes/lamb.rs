@@ -49,6 +49,7 @@ pub static INFO: SceneInfo = SceneInfo {
     presets: values::PRESETS,
     methods: values::METHODS,
     ablation: &[],
+    sweeps: &[],
     ledger: &[],
     standard: "fixed",
     defaults: scene::defaults::<Lamb>,

@@ -21,6 +21,7 @@
 //! - There is no closed form: the reference is the same scheme on the same mesh, extended until
 //!   nothing can come back (certified); it judges the boundary alone.
 
+mod appendix;
 mod claims;
 mod methods;
 mod paper;
@@ -50,6 +51,7 @@ pub static INFO: SceneInfo = SceneInfo {
     presets: values::PRESETS,
     methods: methods::METHODS,
     ablation: methods::ABLATION,
+    sweeps: &[&appendix::APPENDIX_A],
     ledger: paper::LEDGER,
     standard: "fixed",
     defaults: scene::defaults::<PointSource>,

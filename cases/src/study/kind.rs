@@ -3,13 +3,15 @@
 use super::stored::Damage;
 use crate::over::level_in;
 use crate::prepare::Prepared;
+use crate::resume::folder;
 use crate::runner::Run;
+use crate::sweep::Grid;
 use anechoic_reports::convergence::{at_level, label};
 use anechoic_reports::row::Row;
 use serde::{Deserialize, Serialize};
 
 /// What a study is for.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// Methods side by side, ranked.
@@ -22,6 +24,8 @@ pub enum Kind {
         /// The field that is refined.
         over: String,
     },
+    /// A scene at several points of its parameters, with several methods.
+    Sweep(Grid),
 }
 
 impl Kind {
@@ -31,6 +35,7 @@ impl Kind {
             Kind::Comparison => case.to_owned(),
             Kind::Ablation => format!("{case}-ablation"),
             Kind::Convergence { .. } => format!("{case}-converge"),
+            Kind::Sweep(grid) => format!("{case}-{}", grid.name),
         }
     }
 
@@ -47,12 +52,18 @@ impl Kind {
     /// The same of a run that cannot be read: nobody knows its level.
     pub fn name_of_damage(&self, damage: &Damage) -> String {
         match self {
-            Kind::Convergence { .. } => damage.folder.display().to_string(),
+            Kind::Convergence { .. } | Kind::Sweep(_) => damage.folder.display().to_string(),
             Kind::Comparison | Kind::Ablation => damage.method(),
         }
     }
 
     fn name_of(&self, method: &str, scene: &Prepared) -> String {
+        if let Kind::Sweep(grid) = self {
+            // A run at several points has the name of the first.
+            let folder = folder(scene);
+            let point = grid.points_of(&folder).next();
+            return point.map_or(method.to_owned(), |p| format!("{method}, {}", p.label));
+        }
         match self.level(scene) {
             Some((over, value)) => format!("{method}, {}", label(over, value)),
             None => method.to_owned(),
@@ -61,6 +72,12 @@ impl Kind {
 
     /// Is a row one of this run's?
     pub(super) fn owns(&self, run: &Run, row: &Row) -> bool {
+        if let Kind::Sweep(grid) = self {
+            let folder = run.manifest.folder();
+            let at = |label: &str| row.place.ends_with(&format!("@{label}"));
+            return row.method == run.manifest.method
+                && grid.points_of(&folder).any(|point| at(&point.label));
+        }
         let place = self
             .level(&run.prepared)
             .map(|(over, value)| at_level("", over, value));
@@ -71,7 +88,7 @@ impl Kind {
     fn level(&self, scene: &Prepared) -> Option<(&str, f64)> {
         match self {
             Kind::Convergence { over } => Some((over, level_in(&scene.table, over)?)),
-            Kind::Comparison | Kind::Ablation => None,
+            Kind::Comparison | Kind::Ablation | Kind::Sweep(_) => None,
         }
     }
 }

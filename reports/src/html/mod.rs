@@ -35,6 +35,7 @@ fn page(study: &Study) -> Markup {
                     (verdicts(study))
                     (ranking(study))
                     (convergence(study))
+                    (sweep(study))
                     (figures(&study.figures))
                     (notes(&study.notes))
                     (ledger(study))
@@ -147,6 +148,24 @@ fn convergence(study: &Study) -> Markup {
                      with (least squares, with its 95 % interval), and between neighbours."
                 }
                 (tables::convergence(convergence))
+            }
+        }
+    }
+}
+
+fn sweep(study: &Study) -> Markup {
+    html! {
+        @if let Some(sweep) = &study.sweep {
+            section {
+                h2 { "Points" }
+                @for part in &sweep.parts {
+                    h3 { (part.title) }
+                    p.soft {
+                        "Echo ratio of each group of receivers (mean), and of all; displacement (m) at "
+                        code { (part.late_at) } " once echoes are looked for."
+                    }
+                    (tables::sweep(part))
+                }
             }
         }
     }

@@ -6,6 +6,7 @@ use crate::convergence::Convergence;
 use crate::format;
 use crate::ranking::Ranking;
 use crate::row::{Row, Verdict};
+use crate::sweep::{self, SweepPart};
 use crate::study::{Finding, LedgerEntry, RunSummary};
 use crate::table::{convergence_cells, convergence_head, ranking_cells, value_text, verdict_name};
 use anechoic_solver::record::Status;
@@ -115,6 +116,31 @@ pub(super) fn convergence(convergence: &Convergence) -> Markup {
                     @for curve in &convergence.curves {
                         tr {
                             @for (i, cell) in convergence_cells(curve).iter().enumerate() {
+                                td.number[i > 1].name[i < 2] { (cell) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+pub(super) fn sweep(part: &SweepPart) -> Markup {
+    html! {
+        div.scroll {
+            table {
+                thead {
+                    tr {
+                        @for (i, head) in sweep::head(part).iter().enumerate() {
+                            th.number[i > 1] { (head) }
+                        }
+                    }
+                }
+                tbody {
+                    @for row in sweep::cells(part) {
+                        tr {
+                            @for (i, cell) in row.iter().enumerate() {
                                 td.number[i > 1].name[i < 2] { (cell) }
                             }
                         }

@@ -10,6 +10,7 @@
 //! | [`energy`] | `energy_left`, `growth_rate_per_s` |
 //! | [`field`] | `l1`, `l2`, `linf` of fields |
 //! | [`goodness`] | `envelope_misfit`, `phase_misfit`, `goodness` |
+//! | [`late`] | what a receiver still does late in a run |
 //! | [`mod@order`] | `order` of convergence |
 //!
 //! A missing, extra, reshaped or non-finite series and differing time stamps are a [`NormError`];
@@ -21,6 +22,7 @@ pub mod energy;
 pub mod field;
 pub mod goodness;
 pub mod group;
+pub mod late;
 pub mod order;
 pub mod peak;
 pub mod traces;
@@ -38,6 +40,7 @@ pub use goodness::{Misfit, misfits};
 pub use group::{
     Score, group_of, group_worst, with_groups, with_groups_db, with_groups_of_goodness,
 };
+pub use late::late_range;
 pub use order::{Order, order};
 pub use peak::{peak_deviation, rd, rd_at, rd_of_maximum};
 pub use traces::{Trace, Traces};

@@ -9,6 +9,7 @@
 //! | [`space_time`] | a field over place and time, methods side by side |
 //! | [`snapshots`] | fields on a lattice, methods by times |
 //! | [`animation`] | the same as an animated GIF, one frame a time |
+//! | [`points`] | numbers of methods over a parameter or their cost |
 //! | [`convergence`] | error against cell size, log-log |
 //!
 //! Each has a `draw` that gives a [`Drawing`]: a list of marks, written by [`Drawing::to_svg`] and
@@ -22,6 +23,7 @@ pub mod drawing;
 pub mod echo;
 pub mod energy;
 pub mod palette;
+pub mod points;
 pub mod snapshots;
 pub mod space_time;
 pub mod traces;
@@ -37,6 +39,7 @@ pub use drawing::Drawing;
 pub use echo::EchoPlot;
 pub use energy::EnergyPlot;
 pub use panels::Line;
+pub use points::{PointPanel, PointPlot, PointSeries, Style};
 pub use snapshots::{Corners, Field, SnapshotPlot};
 pub use space_time::{Guide, SpaceTimePlot};
 pub use traces::{TracePanel, TracePlot};

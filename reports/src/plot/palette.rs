@@ -13,6 +13,8 @@ pub const SOFT: RGBColor = RGBColor(0x66, 0x66, 0x66);
 pub const GRID: RGBColor = RGBColor(0xe6, 0xe6, 0xe6);
 /// The reference under the methods.
 pub const REFERENCE: RGBColor = RGBColor(0xc4, 0xc4, 0xc4);
+/// A range that is shaded.
+pub const BAND: RGBColor = RGBColor(0xf6, 0xd9, 0xd5);
 /// Paper.
 pub const PAPER: RGBColor = RGBColor(0xff, 0xff, 0xff);
 
