@@ -10,8 +10,10 @@
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
 //! - [`over`]: levels of convergence studies; [`sweep`]: points of sweeps.
+//! - [`timing`]: runs for their time alone; [`awake`]: cells that a wave has reached.
 //! - [`commands`], [`cli`]: the program.
 
+pub mod awake;
 pub mod certified;
 pub mod checks;
 pub mod cli;
@@ -38,3 +40,4 @@ pub mod spec;
 pub mod store;
 pub mod study;
 pub mod sweep;
+pub mod timing;

@@ -60,6 +60,11 @@ pub trait Scene: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// What is claimed of the cost of an echo, as [`anechoic_reports::tradeoff::RELATIVE_COST`].
+    fn trades(&self) -> Vec<Claim> {
+        Vec::new()
+    }
+
     /// Until when (s) no wave can have come back from the outer end of an extended domain, so that
     /// the record of this scene certifies others; `None` when it has no such domain.
     fn serves_until_s(&self) -> Option<f64> {

@@ -9,9 +9,10 @@ pub mod stored;
 use crate::certified::library::Library;
 use crate::error::CaseError;
 use crate::judge::references::References;
-use crate::judge::{Judged, PAPER, REFERENCE, judge_levels, judge_points, judge_runs, rows_unread};
+use crate::judge::{Judged, PAPER, REFERENCE, judge_levels, judge_points, judge_runs, judge_trades, rows_unread};
 use crate::pictures::{self, Picture, animation};
 use crate::runner::Run;
+use crate::timing;
 use crate::store::{save_rows, write_file};
 use anechoic_reports::convergence::Convergence;
 use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
@@ -21,6 +22,7 @@ use anechoic_reports::provenance::Provenance;
 use anechoic_reports::ranking::{Floor, Ranking};
 use anechoic_reports::row::Row;
 use anechoic_reports::sweep::Sweep;
+use anechoic_reports::tradeoff::Tradeoff;
 use anechoic_reports::study::{self as reports, Figure, LedgerEntry, RunSummary};
 use anechoic_solver::record::Status;
 pub use kind::Kind;
@@ -46,6 +48,8 @@ pub struct Published {
     pub convergence: Option<Convergence>,
     /// Methods at several points, where parameters were varied.
     pub sweep: Option<Sweep>,
+    /// Error against cost, where that was asked for.
+    pub tradeoff: Option<Tradeoff>,
     /// The runs' names, which tell them apart.
     pub names: Vec<String>,
     /// Methods by their echo; `None` when no echo ratio was measured.
@@ -72,7 +76,8 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         mut judged,
         convergence,
         sweep,
-    } = judge_study(&study, &references);
+        tradeoff,
+    } = judge_study(&study, &references)?;
     take_in_damage(&study, &mut judged);
     for run in &study.runs {
         let own = judged.rows.iter().filter(|row| study.kind.owns(run, row));
@@ -94,10 +99,11 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         write_file(&folder.join(name), made.as_bytes())?;
     }
     let ranking = rank(&judged.rows);
-    let gallery = match (&convergence, &sweep) {
-        (Some(convergence), _) => pictures::draw_convergence(convergence),
-        (None, Some(sweep)) => pictures::draw_sweep(sweep),
-        (None, None) => pictures::draw(&study.runs, &study.kind, &ranking, &references),
+    let gallery = match (&convergence, &sweep, &tradeoff) {
+        (Some(convergence), ..) => pictures::draw_convergence(convergence),
+        (_, Some(sweep), _) => pictures::draw_sweep(sweep),
+        (_, _, Some(tradeoff)) => pictures::draw_tradeoff(tradeoff),
+        _ => pictures::draw(&study.runs, &study.kind, &ranking, &references),
     };
     let mut notes = judged.notes;
     notes.extend(gallery.notes);
@@ -130,6 +136,7 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
     // Levels and points are not ranked.
     let ranked = convergence.is_none()
         && sweep.is_none()
+        && tradeoff.is_none()
         && ranking.methods.iter().any(|method| method.echo.is_some());
     let published = Published {
         names: study.runs.iter().map(|run| study.kind.name(run)).collect(),
@@ -139,6 +146,7 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         rows: judged.rows,
         convergence,
         sweep,
+        tradeoff,
         ranking: ranked.then_some(ranking),
         reference_missing: judged.reference_missing,
         notes,
@@ -156,11 +164,12 @@ struct Told {
     judged: Judged,
     convergence: Option<Convergence>,
     sweep: Option<Sweep>,
+    tradeoff: Option<Tradeoff>,
 }
 
 /// The rows of the runs that can be read, and what they make on levels or at points.
-fn judge_study(study: &Study, references: &References) -> Told {
-    match &study.kind {
+fn judge_study(study: &Study, references: &References) -> Result<Told, CaseError> {
+    Ok(match &study.kind {
         Kind::Convergence { over } => {
             let lost = study.damaged.first().map(|damage| {
                 let name = study.kind.name_of_damage(damage);
@@ -170,6 +179,19 @@ fn judge_study(study: &Study, references: &References) -> Told {
             Told {
                 judged,
                 convergence,
+                ..Told::default()
+            }
+        }
+        Kind::Tradeoff(grid) => {
+            let (mut judged, sweep) = judge_points(&study.runs, grid, references);
+            let timings = timing::load(&study.folder)?;
+            let (tradeoff, rows) =
+                judge_trades(&study.runs, grid, &sweep, references, &timings)?;
+            // What was asked comes first.
+            judged.rows.splice(0..0, rows);
+            Told {
+                judged,
+                tradeoff: Some(tradeoff),
                 ..Told::default()
             }
         }
@@ -188,7 +210,7 @@ fn judge_study(study: &Study, references: &References) -> Told {
                 ..Told::default()
             }
         },
-    }
+    })
 }
 
 /// The rows and notes of runs that cannot be read: what is claimed of them is not evaluated.
@@ -229,6 +251,7 @@ fn describe(
         rows: published.rows.clone(),
         convergence: published.convergence.clone(),
         sweep: published.sweep.clone(),
+        tradeoff: published.tradeoff.clone(),
         ranking: published.ranking.clone(),
         runs: published
             .runs

@@ -12,6 +12,7 @@
 //! - [`ranking`]: methods by their echo, cost beside it, down to the floor of the reference.
 //! - [`convergence`]: errors on several levels, and the orders they fall with.
 //! - [`sweep`]: methods at several points of their parameters.
+//! - [`tradeoff`]: error against cost, and what an echo takes.
 //! - [`table`], [`export`]: rows for the terminal and for other programs.
 //! - [`diff`](mod@diff): what changed from one list of rows to another.
 //! - [`plot`]: pictures as SVG and PNG, one file a kind.
@@ -35,3 +36,4 @@ pub mod row;
 pub mod study;
 pub mod sweep;
 pub mod table;
+pub mod tradeoff;

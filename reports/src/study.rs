@@ -2,6 +2,7 @@
 
 use crate::convergence::Convergence;
 use crate::sweep::Sweep;
+use crate::tradeoff::Tradeoff;
 use crate::plot::{Drawing, PlotError};
 use crate::provenance::Provenance;
 use crate::ranking::Ranking;
@@ -32,6 +33,9 @@ pub struct Study {
     /// Methods at several points of their parameters, where those were varied.
     #[serde(default)]
     pub sweep: Option<Sweep>,
+    /// Error against cost, where that was asked for.
+    #[serde(default)]
+    pub tradeoff: Option<Tradeoff>,
     /// The runs, complete or not.
     pub runs: Vec<RunSummary>,
     /// What the case says about its source.

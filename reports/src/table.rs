@@ -5,6 +5,7 @@ use crate::format;
 use crate::ranking::{Ranked, Ranking};
 use crate::row::{Row, Verdict};
 use crate::sweep::{self, Sweep};
+use crate::tradeoff::{ADVICE, TRADES, Tradeoff, advice_cells, trade_cells};
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
 
 /// The claims among `rows` with their verdicts; failures say why the bound is what it is.
@@ -134,6 +135,30 @@ pub fn sweep_table(sweep: &Sweep) -> String {
         text += &format!("{}\n{}", part.title, finish(&table, &note));
     }
     text
+}
+
+/// What an echo takes, and all runs with their standing.
+pub fn tradeoff_table(tradeoff: &Tradeoff) -> String {
+    let mut advice = new_table(&ADVICE);
+    align_right(&mut advice, &[0, 3, 4, 5, 6]);
+    let mut last = String::new();
+    for mut row in advice_cells(tradeoff) {
+        // The echo stands once.
+        if row[0] == last {
+            row[0].clear();
+        } else {
+            last.clone_from(&row[0]);
+        }
+        advice.add_row(row);
+    }
+    let mut trades = new_table(&TRADES);
+    align_right(&mut trades, &[3, 4, 5, 6, 7, 8]);
+    for row in trade_cells(tradeoff) {
+        trades.add_row(row);
+    }
+    let [p, s] = tradeoff.wavelengths_m.map(format::short);
+    let notes = format!("L/wavelength: of compressional waves, {p} m; shear waves have {s} m\n");
+    format!("{}\n{}", finish(&advice, ""), finish(&trades, &notes))
 }
 
 /// Head of the table of a convergence study.

@@ -355,6 +355,7 @@ fn an_empty_study_claims_nothing() {
         ranking: None,
         convergence: None,
         sweep: None,
+        tradeoff: None,
         runs: vec![],
         ledger: vec![],
         notes: vec![],

@@ -52,6 +52,12 @@ Examples:
     --over pml-stretched.alpha=0.8..4:0.8/pml-stretched.thickness_m=200..1000:200
   anechoic sweep appendix-a --dry-run                 all points of K25, Appendix A";
 
+const TRADEOFF_EXAMPLES: &str = "\
+Examples:
+  anechoic tradeoff point-source                      which method, how thick, at what cost
+  anechoic tradeoff compression-1d --method pml --method dashpot
+  anechoic tradeoff my.toml --repeats 5";
+
 /// Measures how much echo boundary methods leave in particle geomechanics.
 #[derive(Debug, Parser)]
 #[command(name = "anechoic", version, after_help = EXAMPLES)]
@@ -103,6 +109,9 @@ pub enum Command {
     /// Vary fields of a scene or a method's parameters: echo and cost of several methods at all points.
     #[command(after_help = SWEEP_EXAMPLES)]
     Sweep(SweepArgs),
+    /// Set error against cost: each method over its thickness and strength, what an echo takes, and advice.
+    #[command(after_help = TRADEOFF_EXAMPLES)]
+    Tradeoff(TradeoffArgs),
     /// Compute a scene's certified reference and its floor, and store it.
     ///
     /// Its floor is how much it changes under a larger buffer and a tenth of the solver's tolerance:
@@ -277,6 +286,29 @@ impl SweepArgs {
     }
 }
 
+/// Which scene, which methods, how carefully timed.
+#[derive(Debug, Args)]
+pub struct TradeoffArgs {
+    /// Boundary method; repeatable [default: all that apply]. The extended mesh is always there.
+    #[arg(long)]
+    method: Vec<String>,
+    /// How often short runs are timed, one after the other, after the runs for accuracy; 0: not at all.
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u8).range(0..100))]
+    pub repeats: u8,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+impl TradeoffArgs {
+    /// The options, with the command as typed.
+    pub fn options(&self) -> Options {
+        Options {
+            methods: self.method.clone(),
+            ..self.work.options()
+        }
+    }
+}
+
 /// What to solve and where to put it.
 #[derive(Debug, Args)]
 pub struct WorkArgs {
@@ -319,6 +351,7 @@ impl WorkArgs {
                 Some(jobs) => jobs.into(),
                 None => std::thread::available_parallelism().map_or(1, usize::from),
             },
+            repeats: 0,
             reuse: match (self.resume, self.failed) {
                 (true, _) => Reuse::Whole,
                 (false, true) => Reuse::AllButFailed,
@@ -365,6 +398,7 @@ impl ScoreArgs {
                 out: self.out.clone(),
                 sampling: Sampling::default(),
                 jobs: 1,
+                repeats: 0,
                 reuse: Reuse::Nothing,
                 command: typed(),
             },

@@ -79,6 +79,12 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             let solve = || commands::sweep(&options, over);
             return solve_or_show(&sweep.work, &options, &plan, solve);
         }
+        Some(Command::Tradeoff(tradeoff)) => {
+            let options = tradeoff.options();
+            let plan = commands::plan_tradeoff(&options)?;
+            let solve = || commands::tradeoff(&options, tradeoff.repeats.into());
+            return solve_or_show(&tradeoff.work, &options, &plan, solve);
+        }
         Some(Command::Reference { scene, into }) => {
             stop_on_interrupt()?;
             let recomputed = commands::reference(&scene.request(), into)?;

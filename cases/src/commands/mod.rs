@@ -18,6 +18,7 @@ use crate::resume::{Reuse, Todo, folder, tasks};
 use crate::runner::{Task, pool, run_all};
 use crate::store::Store;
 use crate::study::stored::{Found, Study, find_studies};
+use crate::timing;
 use crate::study::{ANIMATION, Kind, Published, publish};
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
@@ -47,6 +48,8 @@ pub struct Options {
     pub sampling: Sampling,
     /// Runs at a time.
     pub jobs: usize,
+    /// How often runs are timed, at most; 0: not at all.
+    pub repeats: usize,
     /// What is taken from earlier commands instead of solved.
     pub reuse: Reuse,
     /// The command as typed, for the report.
@@ -66,6 +69,7 @@ impl Options {
             out: out.to_owned(),
             sampling: Sampling::default(),
             jobs: 1,
+            repeats: 0,
             reuse: Reuse::Nothing,
             command: format!("anechoic {case}"),
         }
@@ -222,6 +226,27 @@ pub fn sweep(options: &Options, over: &[String]) -> Result<Finished, CaseError> 
     execute(Plan::sweep(options, over)?, options)
 }
 
+/// What `tradeoff` would do.
+///
+/// # Errors
+/// Whatever is wrong with the request.
+pub fn plan_tradeoff(options: &Options) -> Result<Plan, CaseError> {
+    Plan::tradeoff(options)
+}
+
+/// Solves one scene with each method on its ladder, times the runs up to `repeats` times each, and
+/// sets error against cost.
+///
+/// # Errors
+/// As [`run`].
+pub fn tradeoff(options: &Options, repeats: usize) -> Result<Finished, CaseError> {
+    let options = Options {
+        repeats,
+        ..options.clone()
+    };
+    execute(Plan::tradeoff(&options)?, &options)
+}
+
 /// A certified reference that was computed.
 #[derive(Debug)]
 pub struct Recomputed {
@@ -346,6 +371,12 @@ fn execute_tasks(
     // One of earlier runs would not show these; that there is none is no failure.
     let _ = std::fs::remove_file(store.folder().join(ANIMATION));
     let runs = run_all(tasks, options.sampling, options.jobs, store)?;
+    if options.repeats > 0 {
+        if options.reuse == Reuse::Nothing {
+            timing::forget(store.folder())?;
+        }
+        timing::measure(&runs, store.folder(), options.repeats)?;
+    }
     Finished::new(publish(Study { runs, ..study })?, filter)
 }
 

@@ -1,5 +1,6 @@
 //! Which scenes a command solves.
 
+mod ladders;
 mod levels;
 mod points;
 
@@ -215,6 +216,11 @@ impl Plan {
     /// One scene at the points of a sweep, with several methods.
     pub(super) fn sweep(options: &Options, over: &[String]) -> Result<Self, CaseError> {
         points::sweep(options, over)
+    }
+
+    /// One scene with each method on its ladder.
+    pub(super) fn tradeoff(options: &Options) -> Result<Self, CaseError> {
+        ladders::tradeoff(options)
     }
 
     /// Folder of the study in a results folder.

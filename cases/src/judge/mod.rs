@@ -11,11 +11,13 @@ pub mod references;
 mod rows;
 mod series;
 mod subject;
+mod trades;
 
 pub use certified::CERTIFIER;
 pub use levels::judge_levels;
 pub use points::judge_points;
 pub use rows::rows_unread;
+pub use trades::judge_trades;
 pub use series::{traces, traces_of};
 
 use crate::certified::Certified;

@@ -4,9 +4,11 @@ pub mod animation;
 mod fields;
 mod levels;
 mod points;
+mod trades;
 
 pub use levels::draw_convergence;
 pub use points::draw_sweep;
+pub use trades::draw_tradeoff;
 
 use crate::judge::references::References;
 use crate::judge::{traces, traces_of};

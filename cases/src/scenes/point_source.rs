@@ -31,6 +31,7 @@ use crate::checks::Checks;
 use crate::half_space::{TARGET_AND_SOURCE, half_space_scene};
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
+use anechoic_reference::claim::Claim;
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::problem::Problem;
 
@@ -112,6 +113,10 @@ impl Scene for PointSource {
 
     fn claims(&self) -> Vec<SceneClaim> {
         claims::claims(self)
+    }
+
+    fn trades(&self) -> Vec<Claim> {
+        claims::trades(self)
     }
 
     fn cell_m(&self) -> f64 {

@@ -26,16 +26,26 @@ pub enum Kind {
     },
     /// A scene at several points of its parameters, with several methods.
     Sweep(Grid),
+    /// Each method over its own parameters: error against cost.
+    Tradeoff(Grid),
 }
 
 impl Kind {
+    /// The points of a sweep or of ladders.
+    pub fn grid(&self) -> Option<&Grid> {
+        match self {
+            Kind::Sweep(grid) | Kind::Tradeoff(grid) => Some(grid),
+            _ => None,
+        }
+    }
+
     /// Folder of a case's study of this kind.
     pub fn folder(&self, case: &str) -> String {
         match self {
             Kind::Comparison => case.to_owned(),
             Kind::Ablation => format!("{case}-ablation"),
             Kind::Convergence { .. } => format!("{case}-converge"),
-            Kind::Sweep(grid) => format!("{case}-{}", grid.name),
+            Kind::Sweep(grid) | Kind::Tradeoff(grid) => format!("{case}-{}", grid.name),
         }
     }
 
@@ -52,13 +62,15 @@ impl Kind {
     /// The same of a run that cannot be read: nobody knows its level.
     pub fn name_of_damage(&self, damage: &Damage) -> String {
         match self {
-            Kind::Convergence { .. } | Kind::Sweep(_) => damage.folder.display().to_string(),
+            Kind::Convergence { .. } | Kind::Sweep(_) | Kind::Tradeoff(_) => {
+                damage.folder.display().to_string()
+            }
             Kind::Comparison | Kind::Ablation => damage.method(),
         }
     }
 
     fn name_of(&self, method: &str, scene: &Prepared) -> String {
-        if let Kind::Sweep(grid) = self {
+        if let Some(grid) = self.grid() {
             // A run at several points has the name of the first.
             let folder = folder(scene);
             let point = grid.points_of(&folder).next();
@@ -72,7 +84,7 @@ impl Kind {
 
     /// Is a row one of this run's?
     pub(super) fn owns(&self, run: &Run, row: &Row) -> bool {
-        if let Kind::Sweep(grid) = self {
+        if let Some(grid) = self.grid() {
             let folder = run.manifest.folder();
             let at = |label: &str| row.place.ends_with(&format!("@{label}"));
             return row.method == run.manifest.method
@@ -88,7 +100,7 @@ impl Kind {
     fn level(&self, scene: &Prepared) -> Option<(&str, f64)> {
         match self {
             Kind::Convergence { over } => Some((over, level_in(&scene.table, over)?)),
-            Kind::Comparison | Kind::Ablation | Kind::Sweep(_) => None,
+            _ => None,
         }
     }
 }

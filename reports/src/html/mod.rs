@@ -5,6 +5,7 @@ mod tables;
 use crate::format;
 use crate::judge::{Tally, verifies};
 use crate::row::Row;
+use crate::tradeoff::{ADVICE, TRADES, advice_cells, trade_cells};
 use crate::study::{Figure, Image, Study};
 use anechoic_solver::record::Status;
 use base64::Engine;
@@ -34,6 +35,7 @@ fn page(study: &Study) -> Markup {
                     (unfinished(study))
                     (verdicts(study))
                     (ranking(study))
+                    (tradeoff(study))
                     (convergence(study))
                     (sweep(study))
                     (figures(&study.figures))
@@ -148,6 +150,38 @@ fn convergence(study: &Study) -> Markup {
                      with (least squares, with its 95 % interval), and between neighbours."
                 }
                 (tables::convergence(convergence))
+            }
+        }
+    }
+}
+
+fn tradeoff(study: &Study) -> Markup {
+    html! {
+        @if let Some(tradeoff) = &study.tradeoff {
+            section {
+                h2 { "What an echo takes" }
+                p.soft {
+                    "The cheapest run of each method whose mean echo is small enough, the cheapest \
+                     method first. CPU time was measured apart from the runs for accuracy; over \
+                     extended: over that of the same mesh extended until nothing comes back."
+                }
+                (tables::texts(&ADVICE, &advice_cells(tradeoff), 3))
+                @if let Some(share) = tradeoff.awake_share {
+                    p.soft {
+                        "Waves reach " (format::number(100.0 * share)) " % of the extended mesh's \
+                         cell-steps; a solver whose cells sleep until then could save the rest, so \
+                         that all ratios above would be larger by up to "
+                        (format::number(1.0 / share)) ". This is counted, not timed."
+                    }
+                }
+                h3 { "All runs" }
+                p.soft {
+                    "On the front no other run leaves less echo in as little time. L/wavelength: \
+                     thickness over the length of compressional waves, "
+                    (format::short(tradeoff.wavelengths_m[0])) " m; shear waves have "
+                    (format::short(tradeoff.wavelengths_m[1])) " m."
+                }
+                (tables::texts(&TRADES, &trade_cells(tradeoff), 3))
             }
         }
     }

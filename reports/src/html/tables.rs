@@ -126,6 +126,32 @@ pub(super) fn convergence(convergence: &Convergence) -> Markup {
     }
 }
 
+/// A table of texts; columns from `numbers` on are aligned as numbers.
+pub(super) fn texts<const N: usize>(head: &[&str; N], rows: &[[String; N]], numbers: usize) -> Markup {
+    html! {
+        div.scroll {
+            table {
+                thead {
+                    tr {
+                        @for (i, head) in head.iter().enumerate() {
+                            th.number[i >= numbers] { (head) }
+                        }
+                    }
+                }
+                tbody {
+                    @for row in rows {
+                        tr {
+                            @for (i, cell) in row.iter().enumerate() {
+                                td.number[i >= numbers].name[i < numbers] { (cell) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 pub(super) fn sweep(part: &SweepPart) -> Markup {
     html! {
         div.scroll {

@@ -52,7 +52,7 @@ impl Axis {
         Self::log_range(10f64.powi(low), 10f64.powi(high), count)
     }
 
-    /// Exactly `min..max` (both positive) with the decades inside as ticks; where fewer than two
+    /// Exactly `min..max` (both positive) with the decades inside as ticks; where fewer than three
     /// lie inside, also their doubles and fives.
     pub fn log_range(min: f64, max: f64, count: usize) -> Axis {
         let low = (min.log10() - 1e-9).ceil() as i32;
@@ -62,7 +62,7 @@ impl Axis {
             .filter(|e| (high - e) % every == 0)
             .map(|e| 10f64.powi(e))
             .collect();
-        if ticks.len() < 2 {
+        if ticks.len() < 3 {
             ticks = (low - 1..=high)
                 .flat_map(|e| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(e)))
                 .filter(|t| *t >= 0.999 * min && *t <= 1.001 * max)
@@ -108,6 +108,12 @@ impl Axis {
     /// The label of a tick, without the power of ten that the axis's title carries.
     pub fn tick_label(&self, value: f64) -> String {
         if self.log {
+            let decade = |t: &f64| (t.log10() - t.log10().round()).abs() < 1e-6;
+            let decades = self.ticks.iter().all(decade);
+            // Between doubles and fives a power of ten is a number like them.
+            if !decades && (1e-3..1e4).contains(&value) {
+                return crate::format::short(value);
+            }
             return log_label(value);
         }
         let scaled = value / 10f64.powi(self.exponent);

@@ -8,7 +8,7 @@
 //! 1 - beta in every step, which is the rate beta/dt. Where layers of two sides meet the larger rate
 //! holds.
 
-use super::params::{MethodInfo, Param, ParamKind, SideMethod};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, SideMethod, Rungs};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::physics::kernel::{Lumped, NodeTerm};
@@ -58,6 +58,16 @@ pub static METHOD: MethodInfo = MethodInfo {
             name: "end",
             doc: "condition behind the layer",
             kind: ParamKind::Choice(&["fixed", "roller", "free"]),
+        },
+    ],
+    ladder: &[
+        Ladder {
+            param: "thickness_m",
+            rungs: Rungs::Cells(&[5.0, 10.0, 20.0, 30.0, 50.0, 100.0]),
+        },
+        Ladder {
+            param: "sigma_max_per_s",
+            rungs: Rungs::Numbers(&[6.0, 12.0, 24.0]),
         },
     ],
 };

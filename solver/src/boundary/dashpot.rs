@@ -33,6 +33,7 @@ pub static METHOD: MethodInfo = MethodInfo {
             max: 1e6,
         },
     }],
+    ladder: &[],
 };
 
 pub(crate) fn layout<const D: usize>(

@@ -3,7 +3,7 @@
 //! Not an absorber but the honest competitor, and what certifies itself: the fastest wave from any
 //! place of the body to the outer end and back needs at least `2 thickness / c_p`.
 
-use super::params::{MethodInfo, Param, ParamKind, SideMethod};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, SideMethod, Rungs};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::problem::{Problem, Side};
@@ -21,6 +21,10 @@ pub static METHOD: MethodInfo = MethodInfo {
             min: 1e-9,
             max: 1e9,
         },
+    }],
+    ladder: &[Ladder {
+        param: "thickness_m",
+        rungs: Rungs::Cells(&[10.0, 25.0, 50.0, 100.0, 150.0, 200.0]),
     }],
 };
 

@@ -10,6 +10,7 @@ pub static METHOD: MethodInfo = MethodInfo {
     name: "fixed",
     summary: "all displacements held",
     params: &[],
+    ladder: &[],
 };
 
 pub(crate) fn layout<const D: usize>(

@@ -10,6 +10,7 @@ pub static METHOD: MethodInfo = MethodInfo {
     name: "free",
     summary: "no traction",
     params: &[],
+    ladder: &[],
 };
 
 pub(crate) fn layout<const D: usize>(

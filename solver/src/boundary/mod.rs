@@ -10,7 +10,7 @@ pub mod params;
 mod surface;
 mod wall;
 
-pub use params::{MethodInfo, Param, ParamKind, SideMethod, Value};
+pub use params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Value};
 
 use crate::error::SolverError;
 use crate::grid::Grid;

@@ -31,6 +31,24 @@ pub enum ParamKind {
     Choice(&'static [&'static str]),
 }
 
+/// Values of a parameter that tell accuracy from cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ladder {
+    /// The parameter.
+    pub param: &'static str,
+    /// Its values.
+    pub rungs: Rungs,
+}
+
+/// Values on a ladder.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rungs {
+    /// Lengths, in cells.
+    Cells(&'static [f64]),
+    /// Numbers in the parameter's unit.
+    Numbers(&'static [f64]),
+}
+
 /// A parameter of a boundary method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Param {
@@ -118,6 +136,8 @@ pub struct MethodInfo {
     pub summary: &'static str,
     /// Its parameters.
     pub params: &'static [Param],
+    /// What a study of accuracy against cost tries, every combination; empty: the method as it is.
+    pub ladder: &'static [Ladder],
 }
 
 impl MethodInfo {

@@ -14,7 +14,7 @@
 //! The points of the layer rest and its nodes keep their motion; the outer edge is fixed.
 
 use super::layer::{by_axis, relative_depth};
-use super::params::{MethodInfo, Param, ParamKind, SideMethod};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, SideMethod, Rungs};
 use super::{Assigned, Context, End, LayerPoints, Layout, Parts, walls};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
@@ -60,6 +60,10 @@ pub static METHOD: MethodInfo = MethodInfo {
             kind: ParamKind::Choice(&["refuse", "force"]),
         },
     ],
+    ladder: &[Ladder {
+        param: "thickness_m",
+        rungs: Rungs::Cells(&[2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 50.0]),
+    }],
 };
 
 const DEFAULT_CELLS: f64 = 10.0;

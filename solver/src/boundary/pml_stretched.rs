@@ -19,7 +19,7 @@
 //! takes it away. The memory is kept on nodes, where the paper sends it to points and back.
 
 use super::layer::{by_axis, relative_depth};
-use super::params::{MethodInfo, Param, ParamKind, SideMethod};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, SideMethod, Rungs};
 use super::{Context, DisplacementTransfer, End, LayerPoints, Layout, Parts, walls};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
@@ -110,6 +110,10 @@ pub static METHOD: MethodInfo = MethodInfo {
             kind: ParamKind::Choice(&["replaced", "incremental"]),
         },
     ],
+    ladder: &[Ladder {
+        param: "thickness_m",
+        rungs: Rungs::Cells(&[10.0, 20.0, 30.0, 50.0, 100.0]),
+    }],
 };
 
 const DEFAULT_CELLS: f64 = 50.0;

@@ -10,6 +10,7 @@ pub static METHOD: MethodInfo = MethodInfo {
     name: "roller",
     summary: "normal displacement held, tangential free",
     params: &[],
+    ladder: &[],
 };
 
 pub(crate) fn layout<const D: usize>(

@@ -3,13 +3,14 @@
 use super::{Plan, refuse_unused};
 use crate::certified::key;
 use crate::commands::Options;
-use crate::error::CaseError;
+use crate::error::{CaseError, Origin};
 use crate::filter::Filter;
 use crate::prepare::{Prepared, Request, Target};
 use crate::resume::folder;
 use crate::study::Kind;
 use crate::sweep::axis::Axis;
 use crate::sweep::{Grid, Part, Point, Setting, crossed, named};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// What becomes of `sweep`.
@@ -65,6 +66,7 @@ pub(super) fn sweep(options: &Options, over: &[String]) -> Result<Plan, CaseErro
             let wanted: Vec<&str> = wanted.iter().map(String::as_str).collect();
             let methods = methods(options, &wanted);
             let part = points.part(about, &options.request, &methods, crossed(&axes))?;
+            points.refuse_unused()?;
             ("sweep".to_owned(), vec![part])
         }
     };
@@ -102,6 +104,9 @@ fn wanted(axes: &[Axis], target: &Target) -> Vec<String> {
 pub(super) struct Points {
     scenes: Vec<Prepared>,
     left_out: Vec<(String, String)>,
+    /// Assignments that some run takes, and those that some does not.
+    used: BTreeSet<String>,
+    unused: BTreeSet<String>,
 }
 
 impl Points {
@@ -119,6 +124,15 @@ impl Points {
         })
     }
 
+    /// An assignment that no run takes is a mistake.
+    fn refuse_unused(&self) -> Result<(), CaseError> {
+        let first = self.unused.difference(&self.used).next();
+        match first.filter(|_| !self.scenes.is_empty()) {
+            Some(set) => refuse_unused(&[format!("--over {set}")]),
+            None => Ok(()),
+        }
+    }
+
     /// A part with its points' runs.
     pub(super) fn part(
         &mut self,
@@ -128,9 +142,6 @@ impl Points {
         settings: Vec<Setting>,
     ) -> Result<Part, CaseError> {
         let mut part = about;
-        // An assignment that no method takes at any point is a mistake.
-        let mut used: Vec<bool> =
-            vec![false; settings.iter().map(|s| s.sets.len()).max().unwrap_or(0)];
         for setting in &settings {
             let mut point = Point {
                 label: setting.label.clone(),
@@ -138,14 +149,9 @@ impl Points {
                 ..Point::default()
             };
             for method in methods {
-                self.member(&mut point, request, method, setting, &mut used)?;
+                self.member(&mut point, request, method, setting)?;
             }
             part.points.push(point);
-        }
-        if let (Some(at), Some(first)) = (used.iter().position(|used| !used), settings.first())
-            && !self.scenes.is_empty()
-        {
-            refuse_unused(&[format!("--over {}", first.sets[at])])?;
         }
         Ok(part)
     }
@@ -157,26 +163,20 @@ impl Points {
         request: &Request,
         method: &str,
         setting: &Setting,
-        used: &mut [bool],
     ) -> Result<(), CaseError> {
         let mut request = request.clone();
-        let own = request.sets.len();
         request.sets.extend(setting.sets.iter().cloned());
         let target = Target::find(&request)?;
         let scene = match target.prepare(Some(method)) {
             Ok(scene) => scene,
-            Err(error) => match refused(&error) {
-                Some(why) => {
-                    let name = format!("{method}, {}", setting.label);
-                    self.left_out.push((name, why));
-                    return Ok(());
-                }
-                None => return Err(error),
-            },
+            Err(error) => return self.leave_out(&format!("{method}, {}", setting.label), error),
         };
-        for (i, (set, used)) in setting.sets.iter().zip(used).enumerate() {
-            let unused = format!("--set {}", request.sets[own + i]);
-            *used = *used || !scene.unused.iter().any(|u| *u == unused || u == set);
+        for set in &setting.sets {
+            if scene.unused.contains(&Origin::Set(set.clone()).to_string()) {
+                self.unused.insert(set.clone());
+            } else {
+                self.used.insert(set.clone());
+            }
         }
         let standard = standard(&target, &scene);
         point.runs.push(self.add(scene));
@@ -186,6 +186,13 @@ impl Points {
                 point.standards.push(standard);
             }
         }
+        Ok(())
+    }
+
+    /// Leaves a run out whose sides are refused; the error of any other fault.
+    pub(super) fn leave_out(&mut self, name: &str, error: CaseError) -> Result<(), CaseError> {
+        let why = refused(&error).ok_or(error)?;
+        self.left_out.push((name.to_owned(), why));
         Ok(())
     }
 
@@ -199,14 +206,14 @@ impl Points {
     }
 }
 
-/// Why a method does not apply at a point: all that is wrong is about its sides.
+/// Why a method or its parameters do not apply at a point: all that is wrong is about its sides.
 fn refused(error: &CaseError) -> Option<String> {
     let CaseError::Scene(complaints) = error else {
         return None;
     };
     let of_method = complaints
         .iter()
-        .all(|c| c.field.starts_with("boundary.") && c.field.ends_with(".method"));
+        .all(|c| c.field.starts_with("boundary."));
     let first = complaints.first().filter(|_| of_method)?;
     Some(first.message.clone())
 }

@@ -1,0 +1,109 @@
+//! Timing runs: a scene solved again, alone, for the time that it takes. Accuracy runs share the
+//! machine with others and sample fields; these do not.
+
+use crate::error::CaseError;
+use crate::progress::{Progress, stopped};
+use crate::runner::Run;
+use crate::store::{json, read_json, write_file};
+use anechoic_reports::tradeoff::Timing;
+use anechoic_solver::problem::Problem;
+use anechoic_solver::record::Status;
+use anechoic_solver::solve;
+use cpu_time::ThreadTime;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Name of the file in a study's folder.
+const TIMING: &str = "timing.json";
+
+/// Seconds that are spent on the repeats of one run, at most: long runs average over themselves.
+const BUDGET_S: f64 = 20.0;
+
+/// Runs shorter than this (s) are warmed up by one that does not count.
+const SHORT_S: f64 = 2.0;
+
+/// Times by the run's folder.
+pub type Timings = BTreeMap<String, Timing>;
+
+/// The times of a study's folder; none where nothing was timed.
+///
+/// # Errors
+/// [`CaseError::BadRecord`] for a damaged file.
+pub fn load(folder: &Path) -> Result<Timings, CaseError> {
+    let path = folder.join(TIMING);
+    if path.is_file() {
+        read_json(&path)
+    } else {
+        Ok(Timings::new())
+    }
+}
+
+/// Forgets the times of a study that is made anew.
+///
+/// # Errors
+/// [`CaseError::Storage`].
+pub fn forget(folder: &Path) -> Result<(), CaseError> {
+    write_file(&folder.join(TIMING), &json(&Timings::new())?)
+}
+
+/// Times all complete runs that are not in the study's file, up to `repeats` times each, one after the
+/// other, and stores each as it is made.
+///
+/// # Errors
+/// [`CaseError::Storage`], and what [`load`] says.
+pub fn measure(runs: &[Run], folder: &Path, repeats: usize) -> Result<(), CaseError> {
+    let mut timings = load(folder)?;
+    let wanted: Vec<&Run> = runs
+        .iter()
+        .filter(|run| run.complete() && !timings.contains_key(&key(run)))
+        .collect();
+    let work = |run: &Run| {
+        let bill = &run.prepared.bill;
+        (times(run, repeats) * bill.points * bill.steps) as u64
+    };
+    let progress = Progress::new(wanted.iter().map(|run| work(run)).sum());
+    for run in wanted {
+        let problem = bare(run);
+        if run.record.cost.cpu_s < SHORT_S && once(&problem, run, &progress).is_none() {
+            continue;
+        }
+        let measured = (0..times(run, repeats)).map_while(|_| once(&problem, run, &progress));
+        if let Some(timing) = Timing::of(measured.collect()) {
+            timings.insert(key(run), timing);
+            write_file(&folder.join(TIMING), &json(&timings)?)?;
+        }
+        if stopped() {
+            break;
+        }
+    }
+    progress.finish();
+    Ok(())
+}
+
+/// The run's folder, by which its time is found.
+pub fn key(run: &Run) -> String {
+    run.manifest.folder().display().to_string()
+}
+
+/// How often a run is repeated.
+fn times(run: &Run, repeats: usize) -> usize {
+    let fit = BUDGET_S / run.record.cost.cpu_s.max(1e-3);
+    (fit as usize).clamp(1, repeats.max(1))
+}
+
+/// The problem without what is sampled for pictures.
+fn bare(run: &Run) -> Problem<2> {
+    let mut problem = run.prepared.scene.problem();
+    problem.probes.lines.clear();
+    problem.probes.snapshot_times.clear();
+    problem
+}
+
+/// CPU time (s) of one solve; none if it failed or was stopped.
+fn once(problem: &Problem<2>, run: &Run, progress: &Progress) -> Option<f64> {
+    let monitor = progress.monitor(run.prepared.bill.points);
+    let start = ThreadTime::now();
+    let outcome = solve(problem, &monitor).ok()?;
+    let time = start.elapsed().as_secs_f64();
+    (outcome.record.status == Status::Complete).then_some(time)
+}
