@@ -1,6 +1,7 @@
 //! What the gates share: small problems with a monitor that lets them run, comparisons through the
-//! library ([`study`]), the program as it is typed ([`program`]).
+//! library ([`study`]), the program as it is typed ([`program`]), operators as dense matrices ([`dense`]).
 
+pub mod dense;
 pub mod program;
 pub mod study;
 

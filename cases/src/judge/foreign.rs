@@ -8,7 +8,7 @@ use anechoic_reports::judge::Measurement;
 const UNRECOGNISABLE: f64 = 0.9;
 
 /// Metrics that look for echoes, and find none where there is no motion.
-const OF_ECHO: [&str; 5] = [
+pub(super) const OF_ECHO: [&str; 5] = [
     "residual",
     "echo_ratio",
     "echo_level_db",

@@ -3,7 +3,7 @@
 
 use super::references::References;
 use super::rows::{names_of, rows_of};
-use super::{Judged, Measured};
+use super::{Judged, Measured, growth};
 use crate::over::{CELLS, level_in};
 use crate::runner::Run;
 use crate::scene::Role;
@@ -47,13 +47,10 @@ pub fn judge_levels(
         }));
     }
     let mut notes: Vec<String> = Vec::new();
-    for (label, measured) in convergence.labels().iter().zip(&measured) {
-        notes.extend(
-            measured
-                .obstacle
-                .iter()
-                .map(|why| format!("{label}: {why}")),
-        );
+    for ((label, measured), run) in convergence.labels().iter().zip(&measured).zip(runs) {
+        let why = measured.obstacle.clone().into_iter();
+        let why = why.chain(growth::unstable(run, &mut []));
+        notes.extend(why.map(|why| format!("{label}: {why}")));
     }
     let judged = Judged {
         rows,

@@ -4,6 +4,7 @@ mod arrivals;
 mod certified;
 mod foreign;
 mod goodness;
+mod growth;
 mod levels;
 mod papers;
 mod points;
@@ -46,7 +47,7 @@ pub struct Judged {
     pub rows: Vec<Row>,
     /// Why claims have no reference, if there are such claims.
     pub reference_missing: Option<String>,
-    /// Why runs have no reference, claims or not.
+    /// Why runs have no reference, claims or not, and whose energy grows.
     pub notes: Vec<String>,
 }
 
@@ -56,13 +57,14 @@ pub fn judge_runs(runs: &[&Run], references: &References) -> Judged {
     for &run in runs {
         let measured = measured(run, runs, references);
         let claims = run.prepared.scene.claims();
-        let rows = rows_of(
+        let mut rows = rows_of(
             run,
             names_of(run),
             &measured.numbers,
             claims,
             measured.obstacle,
         );
+        judged.notes.extend(growth::unstable(run, &mut rows));
         for reason in measured.missing {
             let concerns =
                 |row: &Row| row.verdict == Some(Verdict::NotEvaluated) && row.why == reason;

@@ -16,7 +16,8 @@ use crate::runner::Run;
 use crate::scene::{Quantity, Reference, Role};
 use crate::study::Kind;
 use anechoic_reports::norms::{
-    NormError, Trace, Traces, echo_series, energy_left, growth_rate_per_s, target_energy,
+    NormError, ROUNDING_GROWTH, Trace, Traces, echo_series, energy_left, growth_rate_per_s,
+    target_energy,
 };
 use anechoic_reports::plot::{
     BarPlot, Bars, Drawing, EchoPlot, EnergyPlot, Line, PlotError, TracePanel, TracePlot,
@@ -270,9 +271,6 @@ fn bars(ranking: &Ranking) -> Result<Option<Picture>, PictureError> {
         raster: false,
     }))
 }
-
-/// Energies grow by less than this (1/s) through rounding and the solver's tolerance.
-const ROUNDING_GROWTH: f64 = 1e-6;
 
 /// What each variant of a method leaves, in the order of the study: echo, and energy that stays.
 fn parts(runs: &[&Run], ranking: &Ranking) -> Result<Option<Picture>, PictureError> {

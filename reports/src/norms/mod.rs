@@ -8,6 +8,7 @@
 //! | [`mod@peak`] | peaks and `rd` |
 //! | [`arrival`] | arrival differences by cross-correlation |
 //! | [`energy`] | `energy_left`, `growth_rate_per_s` |
+//! | [`unloaded`] | whether energy grows after the load |
 //! | [`field`] | `l1`, `l2`, `linf` of fields |
 //! | [`goodness`] | `envelope_misfit`, `phase_misfit`, `goodness` |
 //! | [`late`] | what a receiver still does late in a run |
@@ -26,6 +27,7 @@ pub mod late;
 pub mod order;
 pub mod peak;
 pub mod traces;
+pub mod unloaded;
 
 mod fit;
 
@@ -44,6 +46,7 @@ pub use late::late_range;
 pub use order::{Order, order};
 pub use peak::{peak_deviation, rd, rd_at, rd_of_maximum};
 pub use traces::{Trace, Traces};
+pub use unloaded::{ROUNDING_GROWTH, Unloaded};
 
 use thiserror::Error;
 

@@ -116,6 +116,16 @@ pub static METHOD: MethodInfo = MethodInfo {
     }],
 };
 
+/// Largest c_p/c_s (nu = 0.396) for which the equations are well-posed at any stretch.
+///
+/// Eq (8) stretches row j by s_j = 1 + C'_j alone. With r = (c_p/c_s)^2 its symbol in a side's layer,
+/// `[r c^2/s^2 + q^2, (r-1) c q/s; (r-1) c q, r q^2 + c^2]` for the direction (c, q), has a negative
+/// determinant somewhere as soon as `r^2 (s-1) > 4 r s + s (s-1)`, which no s allows up to
+/// `r = (1 + sqrt 2)^2`; in a corner `(r-1)^2 s^2 > (r + s^2)^2` has the same limit, at s = 1 + sqrt 2.
+/// Beyond, plane waves grow like exp(k c_s g t): without bound as cells shrink, and no damping that is
+/// independent of the wave number k helps.
+pub const LARGEST_SPEED_RATIO: f64 = 1.0 + std::f64::consts::SQRT_2;
+
 const DEFAULT_CELLS: f64 = 50.0;
 /// N_t: steps that the memory reaches back.
 const HISTORY: usize = 4;
