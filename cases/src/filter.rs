@@ -19,6 +19,7 @@ const METRICS: &[&str] = &[
     "arrival_s",
     "order",
     "largest_rise",
+    "stable",
     "relative_cost",
     "timed_cpu_s",
     "awake_share",

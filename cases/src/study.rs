@@ -9,7 +9,7 @@ pub mod stored;
 use crate::certified::library::Library;
 use crate::error::CaseError;
 use crate::judge::references::References;
-use crate::judge::{Judged, PAPER, REFERENCE, judge_levels, judge_points, judge_runs, judge_trades, rows_unread};
+use crate::judge::{Judged, PAPER, REFERENCE, judge_levels, judge_points, judge_runs, judge_stability, judge_trades, rows_unread};
 use crate::pictures::{self, Picture, animation};
 use crate::runner::Run;
 use crate::timing;
@@ -21,6 +21,7 @@ use anechoic_reports::plot::PlotError;
 use anechoic_reports::provenance::Provenance;
 use anechoic_reports::ranking::{Floor, Ranking};
 use anechoic_reports::row::Row;
+use anechoic_reports::stability::Stability;
 use anechoic_reports::sweep::Sweep;
 use anechoic_reports::tradeoff::Tradeoff;
 use anechoic_reports::study::{self as reports, Figure, LedgerEntry, RunSummary};
@@ -50,6 +51,8 @@ pub struct Published {
     pub sweep: Option<Sweep>,
     /// Error against cost, where that was asked for.
     pub tradeoff: Option<Tradeoff>,
+    /// How runs at extremes end, where that was asked for.
+    pub stability: Option<Stability>,
     /// The runs' names, which tell them apart.
     pub names: Vec<String>,
     /// Methods by their echo; `None` when no echo ratio was measured.
@@ -77,6 +80,7 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         convergence,
         sweep,
         tradeoff,
+        stability,
     } = judge_study(&study, &references)?;
     take_in_damage(&study, &mut judged);
     for run in &study.runs {
@@ -99,10 +103,11 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         write_file(&folder.join(name), made.as_bytes())?;
     }
     let ranking = rank(&judged.rows);
-    let gallery = match (&convergence, &sweep, &tradeoff) {
+    let gallery = match (&convergence, &sweep, &tradeoff, &stability) {
         (Some(convergence), ..) => pictures::draw_convergence(convergence),
-        (_, Some(sweep), _) => pictures::draw_sweep(sweep),
-        (_, _, Some(tradeoff)) => pictures::draw_tradeoff(tradeoff),
+        (_, Some(sweep), ..) => pictures::draw_sweep(sweep),
+        (_, _, Some(tradeoff), _) => pictures::draw_tradeoff(tradeoff),
+        (.., Some(stability)) => pictures::draw_stability(stability),
         _ => pictures::draw(&study.runs, &study.kind, &ranking, &references),
     };
     let mut notes = judged.notes;
@@ -137,6 +142,7 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
     let ranked = convergence.is_none()
         && sweep.is_none()
         && tradeoff.is_none()
+        && stability.is_none()
         && ranking.methods.iter().any(|method| method.echo.is_some());
     let published = Published {
         names: study.runs.iter().map(|run| study.kind.name(run)).collect(),
@@ -147,6 +153,7 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         convergence,
         sweep,
         tradeoff,
+        stability,
         ranking: ranked.then_some(ranking),
         reference_missing: judged.reference_missing,
         notes,
@@ -165,6 +172,7 @@ struct Told {
     convergence: Option<Convergence>,
     sweep: Option<Sweep>,
     tradeoff: Option<Tradeoff>,
+    stability: Option<Stability>,
 }
 
 /// The rows of the runs that can be read, and what they make on levels or at points.
@@ -192,6 +200,17 @@ fn judge_study(study: &Study, references: &References) -> Result<Told, CaseError
             Told {
                 judged,
                 tradeoff: Some(tradeoff),
+                ..Told::default()
+            }
+        }
+        Kind::Stability(grid) => {
+            let (stability, rows) = judge_stability(&study.runs, grid);
+            Told {
+                judged: Judged {
+                    rows,
+                    ..Judged::default()
+                },
+                stability: Some(stability),
                 ..Told::default()
             }
         }
@@ -252,6 +271,7 @@ fn describe(
         convergence: published.convergence.clone(),
         sweep: published.sweep.clone(),
         tradeoff: published.tradeoff.clone(),
+        stability: published.stability.clone(),
         ranking: published.ranking.clone(),
         runs: published
             .runs

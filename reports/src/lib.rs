@@ -12,6 +12,7 @@
 //! - [`ranking`]: methods by their echo, cost beside it, down to the floor of the reference.
 //! - [`convergence`]: errors on several levels, and the orders they fall with.
 //! - [`sweep`]: methods at several points of their parameters.
+//! - [`stability`]: which runs at extremes stay stable.
 //! - [`tradeoff`]: error against cost, and what an echo takes.
 //! - [`table`], [`export`]: rows for the terminal and for other programs.
 //! - [`diff`](mod@diff): what changed from one list of rows to another.
@@ -33,6 +34,7 @@ pub mod plot;
 pub mod provenance;
 pub mod ranking;
 pub mod row;
+pub mod stability;
 pub mod study;
 pub mod sweep;
 pub mod table;

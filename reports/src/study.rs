@@ -1,6 +1,7 @@
 //! Everything that a report shows, as data.
 
 use crate::convergence::Convergence;
+use crate::stability::Stability;
 use crate::sweep::Sweep;
 use crate::tradeoff::Tradeoff;
 use crate::plot::{Drawing, PlotError};
@@ -36,6 +37,9 @@ pub struct Study {
     /// Error against cost, where that was asked for.
     #[serde(default)]
     pub tradeoff: Option<Tradeoff>,
+    /// How runs at extremes end, where that was asked for.
+    #[serde(default)]
+    pub stability: Option<Stability>,
     /// The runs, complete or not.
     pub runs: Vec<RunSummary>,
     /// What the case says about its source.

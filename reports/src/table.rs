@@ -4,6 +4,7 @@ use crate::convergence::{Convergence, Curve};
 use crate::format;
 use crate::ranking::{Ranked, Ranking};
 use crate::row::{Row, Verdict};
+use crate::stability::{self, Stability};
 use crate::sweep::{self, Sweep};
 use crate::tradeoff::{ADVICE, TRADES, Tradeoff, advice_cells, trade_cells};
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
@@ -159,6 +160,24 @@ pub fn tradeoff_table(tradeoff: &Tradeoff) -> String {
     let [p, s] = tradeoff.wavelengths_m.map(format::short);
     let notes = format!("L/wavelength: of compressional waves, {p} m; shear waves have {s} m\n");
     format!("{}\n{}", finish(&advice, ""), finish(&trades, &notes))
+}
+
+/// How methods end at extremes, part by part, and why some are not stable.
+pub fn stability_table(study: &Stability) -> String {
+    let mut text = String::new();
+    let head = stability::head(study);
+    for part in &study.parts {
+        let mut table = new_table(&head.iter().map(String::as_str).collect::<Vec<_>>());
+        align_right(&mut table, &(1..head.len()).collect::<Vec<_>>());
+        for row in stability::cells(study, part) {
+            table.add_row(row);
+        }
+        text += &format!("{}\n{}\n", part.title, finish(&table, ""));
+    }
+    for [extreme, method, why] in stability::troubles(study) {
+        text += &format!("{method} at {extreme}: {why}\n");
+    }
+    text
 }
 
 /// Head of the table of a convergence study.

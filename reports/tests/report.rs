@@ -356,6 +356,7 @@ fn an_empty_study_claims_nothing() {
         convergence: None,
         sweep: None,
         tradeoff: None,
+        stability: None,
         runs: vec![],
         ledger: vec![],
         notes: vec![],

@@ -58,6 +58,15 @@ Examples:
   anechoic tradeoff compression-1d --method pml --method dashpot
   anechoic tradeoff my.toml --repeats 5";
 
+const STABILITY_EXAMPLES: &str = "\
+A run that grows, diverges or does not converge is a result here, and ends with 0; a method that
+theory says is stable and that is not ends with 1.
+
+Examples:
+  anechoic stability point-source --profile gate      a few minutes
+  anechoic stability compression-1d --method pml --method dashpot
+  anechoic stability my.toml";
+
 /// Measures how much echo boundary methods leave in particle geomechanics.
 #[derive(Debug, Parser)]
 #[command(name = "anechoic", version, after_help = EXAMPLES)]
@@ -112,6 +121,9 @@ pub enum Command {
     /// Set error against cost: each method over its thickness and strength, what an echo takes, and advice.
     #[command(after_help = TRADEOFF_EXAMPLES)]
     Tradeoff(TradeoffArgs),
+    /// Drive all methods to extremes of step, material, layer and points: which stay stable.
+    #[command(after_help = STABILITY_EXAMPLES)]
+    Stability(StabilityArgs),
     /// Compute a scene's certified reference and its floor, and store it.
     ///
     /// Its floor is how much it changes under a larger buffer and a tenth of the solver's tolerance:
@@ -300,6 +312,26 @@ pub struct TradeoffArgs {
 }
 
 impl TradeoffArgs {
+    /// The options, with the command as typed.
+    pub fn options(&self) -> Options {
+        Options {
+            methods: self.method.clone(),
+            ..self.work.options()
+        }
+    }
+}
+
+/// Which scene, which methods.
+#[derive(Debug, Args)]
+pub struct StabilityArgs {
+    /// Boundary method; repeatable [default: all that apply].
+    #[arg(long)]
+    method: Vec<String>,
+    #[command(flatten)]
+    pub work: WorkArgs,
+}
+
+impl StabilityArgs {
     /// The options, with the command as typed.
     pub fn options(&self) -> Options {
         Options {

@@ -85,6 +85,12 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             let solve = || commands::tradeoff(&options, tradeoff.repeats.into());
             return solve_or_show(&tradeoff.work, &options, &plan, solve);
         }
+        Some(Command::Stability(stability)) => {
+            let options = stability.options();
+            let plan = commands::plan_stability(&options)?;
+            let solve = || commands::stability(&options);
+            return solve_or_show(&stability.work, &options, &plan, solve);
+        }
         Some(Command::Reference { scene, into }) => {
             stop_on_interrupt()?;
             let recomputed = commands::reference(&scene.request(), into)?;

@@ -12,7 +12,7 @@ use crate::store;
 use anechoic_reports::export::summary_json;
 use anechoic_reports::format;
 use anechoic_reports::judge::Tally;
-use anechoic_reports::table::{convergence_table, measurement_table, ranking_table, sweep_table, tradeoff_table, verdict_table};
+use anechoic_reports::table::{convergence_table, measurement_table, ranking_table, stability_table, sweep_table, tradeoff_table, verdict_table};
 use anechoic_solver::Bill;
 use anechoic_solver::boundary::METHODS;
 use anechoic_solver::problem::{PointMode, Problem, Transfer};
@@ -280,6 +280,10 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
             (None, None) if finished.study.tradeoff.is_some() => {
                 let tradeoff = finished.study.tradeoff.iter();
                 text.extend(tradeoff.map(tradeoff_table));
+            }
+            (None, None) if finished.study.stability.is_some() => {
+                let stability = finished.study.stability.iter();
+                text.extend(stability.map(stability_table));
             }
             (None, None) if finished.study.sweep.is_some() => {
                 let sweep = finished.study.sweep.iter();

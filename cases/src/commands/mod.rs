@@ -123,7 +123,11 @@ impl Finished {
     pub fn exit_code(&self) -> u8 {
         let ended = |run: &crate::runner::Run| run.record.status == Status::Complete;
         let failed = |row: &Row| row.verdict == Some(Verdict::Fail);
-        if !self.study.damaged.is_empty() || !self.study.runs.iter().all(ended) {
+        // At extremes a run that fails with an error that says so is an answer.
+        let answered = |run: &crate::runner::Run| {
+            ended(run) || (self.study.stability.is_some() && run.record.status != Status::Cancelled)
+        };
+        if !self.study.damaged.is_empty() || !self.study.runs.iter().all(answered) {
             exit::SOLVER_FAILED
         } else if self.rows.iter().any(failed) {
             exit::GATE_FAILED
@@ -247,6 +251,22 @@ pub fn tradeoff(options: &Options, repeats: usize) -> Result<Finished, CaseError
     execute(Plan::tradeoff(&options)?, &options)
 }
 
+/// What `stability` would do.
+///
+/// # Errors
+/// Whatever is wrong with the request.
+pub fn plan_stability(options: &Options) -> Result<Plan, CaseError> {
+    Plan::stability(options)
+}
+
+/// Solves one scene with all methods at extremes, and says which stay stable.
+///
+/// # Errors
+/// As [`run`].
+pub fn stability(options: &Options) -> Result<Finished, CaseError> {
+    execute(Plan::stability(options)?, options)
+}
+
 /// A certified reference that was computed.
 #[derive(Debug)]
 pub struct Recomputed {
@@ -365,8 +385,10 @@ fn execute_tasks(
         runs: Vec::new(),
         damaged: Vec::new(),
     };
-    let scenes = tasks.iter().map(Task::scene);
-    provide_references(scenes, &Library::of_results(&options.out), options.jobs)?;
+    if study.kind.has_echoes() {
+        let scenes = tasks.iter().map(Task::scene);
+        provide_references(scenes, &Library::of_results(&options.out), options.jobs)?;
+    }
     study.announce()?;
     // One of earlier runs would not show these; that there is none is no failure.
     let _ = std::fs::remove_file(store.folder().join(ANIMATION));

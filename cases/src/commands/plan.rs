@@ -1,5 +1,6 @@
 //! Which scenes a command solves.
 
+mod extremes;
 mod ladders;
 mod levels;
 mod points;
@@ -221,6 +222,11 @@ impl Plan {
     /// One scene with each method on its ladder.
     pub(super) fn tradeoff(options: &Options) -> Result<Self, CaseError> {
         ladders::tradeoff(options)
+    }
+
+    /// One scene with all methods at extremes.
+    pub(super) fn stability(options: &Options) -> Result<Self, CaseError> {
+        extremes::stability(options)
     }
 
     /// Folder of the study in a results folder.

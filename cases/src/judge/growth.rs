@@ -8,7 +8,7 @@ use anechoic_solver::boundary::pml_stretched;
 use anechoic_solver::problem::{Drive, Problem};
 
 /// What a run's energy does after the load; `None` where that cannot be said.
-fn unloaded(run: &Run, problem: &Problem<2>) -> Option<Unloaded> {
+pub(super) fn unloaded(run: &Run, problem: &Problem<2>) -> Option<Unloaded> {
     let energy = &run.record.energy;
     let ends = problem.drives.iter().map(|drive| match drive {
         Drive::SideVelocity { pulse, .. } | Drive::PointForce { pulse, .. } => pulse.end(),

@@ -11,6 +11,7 @@ mod points;
 pub mod references;
 mod rows;
 mod series;
+mod stability;
 mod subject;
 mod trades;
 
@@ -18,6 +19,7 @@ pub use certified::CERTIFIER;
 pub use levels::judge_levels;
 pub use points::judge_points;
 pub use rows::rows_unread;
+pub use stability::judge_stability;
 pub use trades::judge_trades;
 pub use series::{traces, traces_of};
 

@@ -10,6 +10,9 @@ pub use levels::draw_convergence;
 pub use points::draw_sweep;
 pub use trades::draw_tradeoff;
 
+use anechoic_reports::plot::stability_map;
+use anechoic_reports::stability::Stability;
+
 use crate::judge::references::References;
 use crate::judge::{traces, traces_of};
 use crate::runner::Run;
@@ -79,6 +82,22 @@ impl Gallery {
 /// The note of a picture that could not be made.
 pub fn missing(name: &str, reason: &dyn std::fmt::Display) -> String {
     format!("the picture `{name}` could not be made: {reason}")
+}
+
+/// The map of a study of stability.
+pub fn draw_stability(stability: &Stability) -> Gallery {
+    let mut gallery = Gallery::default();
+    let made = stability_map(stability).map(|drawing| {
+        Some(Picture {
+            name: "stability".into(),
+            title: "Which methods stay stable".into(),
+            caption: "Growth rate of the total energy over the second half of each run, or how it ended. Everything but the extreme is the scene's own.".into(),
+            drawing,
+            raster: false,
+        })
+    });
+    gallery.add("stability", made.map_err(PictureError::from));
+    gallery
 }
 
 /// All pictures that the runs allow. One that cannot be made costs a note, not the others: the runs

@@ -28,15 +28,22 @@ pub enum Kind {
     Sweep(Grid),
     /// Each method over its own parameters: error against cost.
     Tradeoff(Grid),
+    /// All methods at extremes: which stay stable.
+    Stability(Grid),
 }
 
 impl Kind {
     /// The points of a sweep or of ladders.
     pub fn grid(&self) -> Option<&Grid> {
         match self {
-            Kind::Sweep(grid) | Kind::Tradeoff(grid) => Some(grid),
+            Kind::Sweep(grid) | Kind::Tradeoff(grid) | Kind::Stability(grid) => Some(grid),
             _ => None,
         }
+    }
+
+    /// Are its runs compared with references?
+    pub fn has_echoes(&self) -> bool {
+        !matches!(self, Kind::Stability(_))
     }
 
     /// Folder of a case's study of this kind.
@@ -45,7 +52,7 @@ impl Kind {
             Kind::Comparison => case.to_owned(),
             Kind::Ablation => format!("{case}-ablation"),
             Kind::Convergence { .. } => format!("{case}-converge"),
-            Kind::Sweep(grid) | Kind::Tradeoff(grid) => format!("{case}-{}", grid.name),
+            Kind::Sweep(grid) | Kind::Tradeoff(grid) | Kind::Stability(grid) => format!("{case}-{}", grid.name),
         }
     }
 
@@ -62,10 +69,8 @@ impl Kind {
     /// The same of a run that cannot be read: nobody knows its level.
     pub fn name_of_damage(&self, damage: &Damage) -> String {
         match self {
-            Kind::Convergence { .. } | Kind::Sweep(_) | Kind::Tradeoff(_) => {
-                damage.folder.display().to_string()
-            }
             Kind::Comparison | Kind::Ablation => damage.method(),
+            _ => damage.folder.display().to_string(),
         }
     }
 

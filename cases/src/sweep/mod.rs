@@ -88,6 +88,9 @@ pub struct Point {
     pub value: Option<f64>,
     /// Folders of the methods' runs below that of the study.
     pub runs: Vec<PathBuf>,
+    /// Methods that the program refuses there, and why.
+    #[serde(default)]
+    pub refused: Vec<(String, String)>,
     /// Folders of the standard runs, over which echoes are taken.
     pub standards: Vec<PathBuf>,
 }

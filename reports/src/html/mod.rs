@@ -6,6 +6,7 @@ use crate::format;
 use crate::judge::{Tally, verifies};
 use crate::row::Row;
 use crate::tradeoff::{ADVICE, TRADES, advice_cells, trade_cells};
+use crate::stability::troubles;
 use crate::study::{Figure, Image, Study};
 use anechoic_solver::record::Status;
 use base64::Engine;
@@ -36,6 +37,7 @@ fn page(study: &Study) -> Markup {
                     (verdicts(study))
                     (ranking(study))
                     (tradeoff(study))
+                    (stable(study))
                     (convergence(study))
                     (sweep(study))
                     (figures(&study.figures))
@@ -182,6 +184,26 @@ fn tradeoff(study: &Study) -> Markup {
                     (format::short(tradeoff.wavelengths_m[1])) " m."
                 }
                 (tables::texts(&TRADES, &trade_cells(tradeoff), 3))
+            }
+        }
+    }
+}
+
+fn stable(study: &Study) -> Markup {
+    html! {
+        @if let Some(stability) = &study.stability {
+            section {
+                h2 { "Which methods stay stable" }
+                p.soft {
+                    "Growth rate of the total energy over the second half of each run; 0 is within \
+                     rounding."
+                }
+                @for part in &stability.parts {
+                    h3 { (part.title) }
+                    (tables::outcomes(stability, part))
+                }
+                h3 { "What is not stable, and why" }
+                (tables::texts(&["extreme", "method", "outcome"], &troubles(stability), 3))
             }
         }
     }

@@ -6,6 +6,7 @@ use crate::convergence::Convergence;
 use crate::format;
 use crate::ranking::Ranking;
 use crate::row::{Row, Verdict};
+use crate::stability::{self, Stability, StabilityPart};
 use crate::sweep::{self, SweepPart};
 use crate::study::{Finding, LedgerEntry, RunSummary};
 use crate::table::{convergence_cells, convergence_head, ranking_cells, value_text, verdict_name};
@@ -143,6 +144,31 @@ pub(super) fn texts<const N: usize>(head: &[&str; N], rows: &[[String; N]], numb
                         tr {
                             @for (i, cell) in row.iter().enumerate() {
                                 td.number[i >= numbers].name[i < numbers] { (cell) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+pub(super) fn outcomes(stability: &Stability, part: &StabilityPart) -> Markup {
+    html! {
+        div.scroll {
+            table {
+                thead {
+                    tr {
+                        @for (i, head) in stability::head(stability).iter().enumerate() {
+                            th.number[i > 0] { (head) }
+                        }
+                    }
+                }
+                tbody {
+                    @for row in stability::cells(stability, part) {
+                        tr {
+                            @for (i, cell) in row.iter().enumerate() {
+                                td.number[i > 0].name[i == 0] { (cell) }
                             }
                         }
                     }

@@ -9,6 +9,7 @@
 //! | [`space_time`] | a field over place and time, methods side by side |
 //! | [`snapshots`] | fields on a lattice, methods by times |
 //! | [`animation`] | the same as an animated GIF, one frame a time |
+//! | [`map`] | outcomes of methods at extremes |
 //! | [`points`] | numbers of methods over a parameter or their cost |
 //! | [`convergence`] | error against cell size, log-log |
 //!
@@ -22,6 +23,7 @@ pub mod convergence;
 pub mod drawing;
 pub mod echo;
 pub mod energy;
+pub mod map;
 pub mod palette;
 pub mod points;
 pub mod snapshots;
@@ -38,6 +40,7 @@ pub use convergence::{ConvergencePlot, ConvergenceSeries};
 pub use drawing::Drawing;
 pub use echo::EchoPlot;
 pub use energy::EnergyPlot;
+pub use map::stability_map;
 pub use panels::Line;
 pub use points::{PointPanel, PointPlot, PointSeries, Style};
 pub use snapshots::{Corners, Field, SnapshotPlot};

@@ -70,6 +70,15 @@ pub static METHOD: MethodInfo = MethodInfo {
             rungs: Rungs::Numbers(&[6.0, 12.0, 24.0]),
         },
     ],
+    extremes: &[Ladder {
+        param: "thickness_m",
+        rungs: Rungs::Cells(&[1.0, 100.0]),
+    },
+    Ladder {
+        param: "sigma_max_per_s",
+        rungs: Rungs::Numbers(&[0.0, 1e3, 1e6]),
+    }],
+    passive: true,
 };
 
 pub(crate) fn layout<const D: usize>(

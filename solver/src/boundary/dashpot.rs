@@ -9,7 +9,7 @@
 //! be: the mass of one full cell times c/h; with the half-cell mass of the boundary nodes alone the
 //! impedance is halved. A wave that meets it head-on is reflected by (1 - a)/(1 + a).
 
-use super::params::{MethodInfo, Param, ParamKind, SideMethod};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod};
 use super::surface::Surface;
 use super::{Context, End, Layout, Parts};
 use crate::basis::Discretisation;
@@ -34,6 +34,11 @@ pub static METHOD: MethodInfo = MethodInfo {
         },
     }],
     ladder: &[],
+    extremes: &[Ladder {
+        param: "impedance",
+        rungs: Rungs::Numbers(&[0.0, 1e3, 1e6]),
+    }],
+    passive: true,
 };
 
 pub(crate) fn layout<const D: usize>(

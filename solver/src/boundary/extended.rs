@@ -26,6 +26,8 @@ pub static METHOD: MethodInfo = MethodInfo {
         param: "thickness_m",
         rungs: Rungs::Cells(&[10.0, 25.0, 50.0, 100.0, 150.0, 200.0]),
     }],
+    extremes: &[],
+    passive: true,
 };
 
 /// Implicit schemes spread a little of everything a few cells ahead of the wave.

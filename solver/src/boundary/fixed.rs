@@ -11,6 +11,8 @@ pub static METHOD: MethodInfo = MethodInfo {
     summary: "all displacements held",
     params: &[],
     ladder: &[],
+    extremes: &[],
+    passive: true,
 };
 
 pub(crate) fn layout<const D: usize>(

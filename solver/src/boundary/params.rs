@@ -138,6 +138,10 @@ pub struct MethodInfo {
     pub params: &'static [Param],
     /// What a study of accuracy against cost tries, every combination; empty: the method as it is.
     pub ladder: &'static [Ladder],
+    /// Values at which a study of stability looks, one parameter at a time.
+    pub extremes: &'static [Ladder],
+    /// Can it only take energy away, whatever the motion and its parameters?
+    pub passive: bool,
 }
 
 impl MethodInfo {

@@ -64,6 +64,15 @@ pub static METHOD: MethodInfo = MethodInfo {
         param: "thickness_m",
         rungs: Rungs::Cells(&[2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 50.0]),
     }],
+    extremes: &[Ladder {
+        param: "thickness_m",
+        rungs: Rungs::Cells(&[1.0, 100.0]),
+    },
+    Ladder {
+        param: "reflection",
+        rungs: Rungs::Numbers(&[0.5, 1e-6, 1e-12]),
+    }],
+    passive: false,
 };
 
 const DEFAULT_CELLS: f64 = 10.0;

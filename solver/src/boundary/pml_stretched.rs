@@ -114,6 +114,23 @@ pub static METHOD: MethodInfo = MethodInfo {
         param: "thickness_m",
         rungs: Rungs::Cells(&[10.0, 20.0, 30.0, 50.0, 100.0]),
     }],
+    extremes: &[Ladder {
+        param: "thickness_m",
+        rungs: Rungs::Cells(&[1.0, 100.0]),
+    },
+    Ladder {
+        param: "alpha",
+        rungs: Rungs::Numbers(&[0.0, 40.0, 1e4]),
+    },
+    Ladder {
+        param: "rayleigh_per_s",
+        rungs: Rungs::Numbers(&[0.0, 100.0, 1e5]),
+    },
+    Ladder {
+        param: "relaxed_modulus_ratio",
+        rungs: Rungs::Numbers(&[1.0, 0.1]),
+    }],
+    passive: false,
 };
 
 /// Largest c_p/c_s (nu = 0.396) for which the equations are well-posed at any stretch.

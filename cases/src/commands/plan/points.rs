@@ -104,6 +104,8 @@ fn wanted(axes: &[Axis], target: &Target) -> Vec<String> {
 pub(super) struct Points {
     scenes: Vec<Prepared>,
     left_out: Vec<(String, String)>,
+    /// Are standard runs left out?
+    alone: bool,
     /// Assignments that some run takes, and those that some does not.
     used: BTreeSet<String>,
     unused: BTreeSet<String>,
@@ -131,6 +133,18 @@ impl Points {
             Some(set) => refuse_unused(&[format!("--over {set}")]),
             None => Ok(()),
         }
+    }
+
+    /// A part with its points' runs, and no standard runs: echoes are not asked for.
+    pub(super) fn part_alone(
+        &mut self,
+        about: Part,
+        request: &Request,
+        methods: &[String],
+        settings: Vec<Setting>,
+    ) -> Result<Part, CaseError> {
+        self.alone = true;
+        self.part(about, request, methods, settings)
     }
 
     /// A part with its points' runs.
@@ -169,7 +183,12 @@ impl Points {
         let target = Target::find(&request)?;
         let scene = match target.prepare(Some(method)) {
             Ok(scene) => scene,
-            Err(error) => return self.leave_out(&format!("{method}, {}", setting.label), error),
+            Err(error) => {
+                let name = format!("{method}, {}", setting.label);
+                let why = self.leave_out(&name, error)?;
+                point.refused.push((method.to_owned(), why));
+                return Ok(());
+            }
         };
         for set in &setting.sets {
             if scene.unused.contains(&Origin::Set(set.clone()).to_string()) {
@@ -178,7 +197,10 @@ impl Points {
                 self.used.insert(set.clone());
             }
         }
-        let standard = standard(&target, &scene);
+        let standard = match self.alone {
+            true => None,
+            false => standard(&target, &scene),
+        };
         point.runs.push(self.add(scene));
         if let Some(standard) = standard {
             let standard = self.add(standard);
@@ -190,10 +212,16 @@ impl Points {
     }
 
     /// Leaves a run out whose sides are refused; the error of any other fault.
-    pub(super) fn leave_out(&mut self, name: &str, error: CaseError) -> Result<(), CaseError> {
-        let why = refused(&error).ok_or(error)?;
-        self.left_out.push((name.to_owned(), why));
-        Ok(())
+    pub(super) fn leave_out(&mut self, name: &str, error: CaseError) -> Result<String, CaseError> {
+        let why = match (&error, self.alone) {
+            // At an extreme every refusal is an answer.
+            (CaseError::Scene(complaints), true) => {
+                complaints.first().map_or(String::new(), ToString::to_string)
+            }
+            _ => refused(&error).ok_or(error)?,
+        };
+        self.left_out.push((name.to_owned(), why.clone()));
+        Ok(why)
     }
 
     /// Takes a scene in unless it is there; its folder.

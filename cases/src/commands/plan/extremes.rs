@@ -1,0 +1,229 @@
+//! The runs of a study of stability: all methods at extremes of step, material, layer and points.
+
+use super::Plan;
+use super::points::Points;
+use crate::commands::Options;
+use crate::error::CaseError;
+use crate::prepare::{Prepared, Target};
+use crate::study::Kind;
+use crate::sweep::{Grid, Part, Setting};
+use anechoic_solver::boundary::{MethodInfo, Rungs, find};
+use anechoic_solver::problem::Drive;
+
+/// Steps over the time that the fastest wave takes through a cell.
+const STEPS: [f64; 7] = [0.001, 0.01, 0.1, 1.0, 5.0, 20.0, 100.0];
+/// Most and fewest steps of a run whose step is an extreme.
+const COUNT: [f64; 2] = [200.0, 2000.0];
+/// Steps that a pulse takes at least, so that it is one.
+const IN_PULSE: f64 = 20.0;
+
+const RATIOS: [f64; 7] = [0.0, 0.25, 0.4, 0.45, 0.49, 0.499, 0.4999];
+
+const TRANSFERS: [(&str, &[&str]); 5] = [
+    (
+        "frozen, keep",
+        &["points.mode=frozen", "points.transfer=keep"],
+    ),
+    (
+        "frozen, affine",
+        &["points.mode=frozen", "points.transfer=affine"],
+    ),
+    (
+        "moving, affine",
+        &["points.mode=moving", "points.transfer=affine"],
+    ),
+    (
+        "moving, flip",
+        &["points.mode=moving", "points.transfer=flip"],
+    ),
+    (
+        "moving, pic",
+        &["points.mode=moving", "points.transfer=pic"],
+    ),
+];
+
+const BASES: [(&str, &[&str]); 5] = [
+    (
+        "linear, consistent",
+        &["basis=linear", "time.mass=consistent"],
+    ),
+    ("gimp, lumped", &["basis=gimp", "time.mass=lumped"]),
+    ("gimp, consistent", &["basis=gimp", "time.mass=consistent"]),
+    ("bspline, lumped", &["basis=bspline", "time.mass=lumped"]),
+    (
+        "bspline, consistent",
+        &["basis=bspline", "time.mass=consistent"],
+    ),
+];
+
+const PER_CELL: [usize; 4] = [1, 4, 9, 16];
+
+/// Steps of the long run: under the gate's profile, and else.
+const LONG: [f64; 2] = [5000.0, 100_000.0];
+
+/// What becomes of `stability`.
+pub(super) fn stability(options: &Options) -> Result<Plan, CaseError> {
+    let target = Target::find(&options.request)?;
+    let mut methods = options.methods.clone();
+    if methods.is_empty() {
+        methods = usual(&target);
+    }
+    let mut points = Points::default();
+    let mut parts = Vec::new();
+    let base = target.prepare(Some(target.info.standard))?;
+    let mut add = |title: &str, methods: &[String], settings: Vec<Setting>| {
+        if settings.is_empty() {
+            return Ok(());
+        }
+        let about = Part {
+            name: title.to_owned(),
+            title: title.to_owned(),
+            ..Part::default()
+        };
+        let part = points.part_alone(about, &options.request, methods, settings)?;
+        parts.push(part);
+        Ok::<(), CaseError>(())
+    };
+    add("time step over h/c_p", &methods, steps(&base))?;
+    let material = RATIOS.map(|nu| named(format!("nu={nu}"), vec![format!("material.nu={nu}")]));
+    add("Poisson's ratio", &methods, material.to_vec())?;
+    let words = |all: &[(&str, &[&str])]| -> Vec<Setting> {
+        let own = |sets: &[&str]| sets.iter().map(|set| (*set).to_owned()).collect();
+        all.iter()
+            .map(|(label, sets)| named((*label).to_owned(), own(sets)))
+            .collect()
+    };
+    add(
+        "transfer between points and nodes",
+        &methods,
+        words(&TRANSFERS),
+    )?;
+    add("basis and masses", &methods, words(&BASES))?;
+    let per_cell =
+        PER_CELL.map(|n| named(format!("{n} a cell"), vec![format!("points.per_cell={n}")]));
+    add("points in a cell", &methods, per_cell.to_vec())?;
+    for method in &methods {
+        let Ok(scene) = target.prepare(Some(method)) else {
+            continue;
+        };
+        let title = format!("strength and thickness of {method}");
+        add(&title, std::slice::from_ref(method), strengths(&scene))?;
+    }
+    let count = if base.profile == "gate" {
+        LONG[0]
+    } else {
+        LONG[1]
+    };
+    add("long run", &methods, vec![long(&base, count)])?;
+    let grid = Grid {
+        name: "stability".to_owned(),
+        parts,
+    };
+    points.plan(Kind::Stability(grid), options)
+}
+
+/// Each kind of method once: presets that differ in a layer's numbers alone are one method.
+fn usual(target: &Target) -> Vec<String> {
+    let mut kinds: Vec<Vec<String>> = Vec::new();
+    let mut names = Vec::new();
+    for method in target.info.methods.iter().filter(|m| !m.on_request) {
+        let Ok(scene) = target.prepare(Some(method.name)) else {
+            continue;
+        };
+        let sides = scene.scene.boundary().named();
+        let kind: Vec<String> = sides.iter().map(|(_, side)| side.method.clone()).collect();
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+            names.push(method.name.to_owned());
+        }
+    }
+    names
+}
+
+fn named(label: String, sets: Vec<String>) -> Setting {
+    Setting {
+        label,
+        value: None,
+        sets,
+    }
+}
+
+/// Is it a field of the scene?
+fn has(scene: &Prepared, field: &str) -> bool {
+    scene.info.all_fields().iter().any(|own| own.path == field)
+}
+
+/// A run of `count` steps of `dt` (s), with a pulse that fits.
+fn timed(scene: &Prepared, label: String, dt: f64, count: f64) -> Setting {
+    let problem = scene.scene.problem();
+    let end = count * dt;
+    let pulse = problem.drives.first().map(|drive| match drive {
+        Drive::SideVelocity { pulse, .. } | Drive::PointForce { pulse, .. } => *pulse,
+    });
+    let mut sets = vec![format!("time.dt_s={dt}"), format!("time.end_s={end}")];
+    if let Some(pulse) = pulse {
+        // No shorter than some steps, and over in the first quarter of the run.
+        let length = pulse.end().max(IN_PULSE * dt).min(0.25 * end);
+        let scale = pulse.end() / length;
+        sets.push(format!("source.frequency_Hz={}", pulse.frequency * scale));
+        if has(scene, "source.t0_s") {
+            sets.push(format!("source.t0_s={}", pulse.t0 / scale));
+        }
+    }
+    if has(scene, "t1_s") {
+        sets.push(format!("t1_s={}", 0.5 * end));
+    }
+    named(label, sets)
+}
+
+/// Steps from a thousandth to a hundred times the time of the fastest wave through a cell.
+fn steps(scene: &Prepared) -> Vec<Setting> {
+    let problem = scene.scene.problem();
+    let cell = scene.scene.cell_m() / problem.material.p_speed();
+    let of = |factor: &f64| {
+        let dt = factor * cell;
+        let count = (problem.end_time / dt).clamp(COUNT[0], COUNT[1]).round();
+        timed(scene, format!("dt = {factor} h/c_p"), dt, count)
+    };
+    STEPS.iter().map(of).collect()
+}
+
+/// The scene's own step, so often.
+fn long(scene: &Prepared, count: f64) -> Setting {
+    let mut setting = timed(
+        scene,
+        format!("{count} steps"),
+        scene.scene.problem().dt,
+        count,
+    );
+    // The pulse stays what it is.
+    setting.sets.retain(|set| !set.starts_with("source."));
+    setting
+}
+
+/// Extremes of the parameters of the methods on a scene's sides, one at a time.
+fn strengths(scene: &Prepared) -> Vec<Setting> {
+    let cell = scene.scene.cell_m();
+    let mut infos: Vec<&'static MethodInfo> = Vec::new();
+    for (_, side) in scene.scene.boundary().named() {
+        if let Some(info) = find(&side.method)
+            && !infos.iter().any(|other| other.name == info.name)
+        {
+            infos.push(info);
+        }
+    }
+    let mut settings = Vec::new();
+    for info in infos {
+        for extreme in info.extremes {
+            let values: Vec<f64> = match extreme.rungs {
+                Rungs::Cells(cells) => cells.iter().map(|n| n * cell).collect(),
+                Rungs::Numbers(numbers) => numbers.to_vec(),
+            };
+            settings.extend(values.into_iter().map(|value| {
+                let set = format!("{}.{}={value}", info.name, extreme.param);
+                named(set.clone(), vec![set])
+            }));
+        }
+    }
+    settings
+}
