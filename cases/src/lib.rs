@@ -9,9 +9,11 @@
 //!   back instead of solved; [`foreign`]: series of other programs.
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
+//! - [`atlas`]: what sides reflect of plane waves, by angle.
 //! - [`over`]: levels of convergence studies.
 //! - [`commands`], [`cli`]: the program.
 
+pub mod atlas;
 pub mod certified;
 pub mod checks;
 pub mod cli;
