@@ -269,7 +269,7 @@ fn rank(rows: &[Row]) -> Ranking {
 }
 
 /// Writes a picture as SVG and PNG, and gives it as the report shows it.
-fn save_picture(folder: &Path, picture: &Picture) -> Result<Figure, CaseError> {
+pub(crate) fn save_picture(folder: &Path, picture: &Picture) -> Result<Figure, CaseError> {
     let wrong = |e: PlotError| failed(picture.name, &e);
     let path = folder.join(picture.name);
     let svg = picture.drawing.to_svg().map_err(wrong)?;

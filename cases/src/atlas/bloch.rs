@@ -117,11 +117,10 @@ fn null_vector(matrix: &Matrix2) -> [Complex64; 2] {
 /// # Errors
 /// A column without waves or a layer that resonates.
 pub fn reflection(stiffness: &Stiffness, turn: f64) -> Result<Reflection, AtlasError> {
-    let columns = stiffness.turned(turn);
-    let waves = modes(columns[PLAIN])?;
+    let waves = modes(stiffness.turned(PLAIN, turn))?;
     let mut transfer = Matrix2::zero();
-    for column in columns[PLAIN..].iter().rev() {
-        let [mut before, mut at, after] = *column;
+    for column in (PLAIN..stiffness.columns()).rev() {
+        let [mut before, mut at, after] = stiffness.turned(column, turn);
         for i in 0..2 {
             // a direction that is held has no forces at all
             if at.0[i] == [Complex64::ZERO; 2] {
@@ -158,8 +157,7 @@ pub fn reflection(stiffness: &Stiffness, turn: f64) -> Result<Reflection, AtlasE
 pub fn turn_of(stiffness: &Stiffness, wave: Wave, angle: f64) -> Result<f64, AtlasError> {
     let slope = angle.to_radians().tan();
     let plain = |turn: f64| {
-        let column = stiffness.turned(turn)[PLAIN];
-        modes(column).map(|m| m[wave as usize].turn())
+        modes(stiffness.turned(PLAIN, turn)).map(|m| m[wave as usize].turn())
     };
     // the steeper the wave along the side, the less is left across it
     let (mut low, mut high) = (0.0, PI);

@@ -15,9 +15,16 @@
 //!
 //! **What it is judged by.** Closed forms of the continuum ([`anechoic_reference::analytic::oblique`]),
 //! where a method has one.
+//!
+//! [`subject`] takes a method out of a scene, [`measure`] says what is measured of it, [`rows`] judges,
+//! [`pictures`] draws.
 
 pub mod bloch;
+pub mod measure;
+pub mod pictures;
+pub mod rows;
 pub mod strip;
+pub mod subject;
 
 use anechoic_reference::analytic::oblique::{Reflection, Wave};
 use anechoic_solver::error::SolverError;

@@ -290,23 +290,26 @@ impl Fields {
 pub struct Stiffness {
     /// For each column, its coupling to the columns before, at and after it, and there to the rows
     /// below, at and above it. Rows of held directions are zero.
-    pub blocks: Vec<[[Matrix2; 3]; 3]>,
+    blocks: Vec<[[Matrix2; 3]; 3]>,
 }
 
 impl Stiffness {
-    /// For motion that goes along the side as exp(-i k y): `turn` is k h. The coupling of each column to
+    /// Columns of nodes.
+    pub fn columns(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// For motion that goes along the side as exp(-i k y), `turn` = k h: the coupling of a column to
     /// the columns before, at and after it.
-    pub fn turned(&self, turn: f64) -> Vec<[Matrix2; 3]> {
+    pub fn turned(&self, column: usize, turn: f64) -> [Matrix2; 3] {
         let up = Complex64::from_polar(1.0, -turn);
         let phases = [up.conj(), Complex64::ONE, up];
         let sum = |rows: &[Matrix2; 3]| {
             let [a, b, c] = [0, 1, 2].map(|r| rows[r].scale(phases[r]));
             a + b + c
         };
-        self.blocks
-            .iter()
-            .map(|column| [0, 1, 2].map(|c| sum(&column[c])))
-            .collect()
+        let blocks = &self.blocks[column];
+        [0, 1, 2].map(|c| sum(&blocks[c]))
     }
 }
 

@@ -1,5 +1,6 @@
 //! What the program does, for callers that are not its command line: nothing here prints.
 
+mod atlas;
 mod diff;
 mod export;
 mod plan;
@@ -21,6 +22,7 @@ use crate::study::{ANIMATION, Kind, Published, publish};
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::record::Status;
+pub use atlas::{Atlas, atlas};
 pub use diff::compare_rows;
 pub use export::{Exported, export};
 pub use plan::Plan;

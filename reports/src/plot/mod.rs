@@ -9,6 +9,7 @@
 //! | [`space_time`] | a field over place and time, methods side by side |
 //! | [`snapshots`] | fields on a lattice, methods by times |
 //! | [`animation`] | the same as an animated GIF, one frame a time |
+//! | [`curves`] | methods over any abscissa, log-log or half, closed forms dashed |
 //! | [`convergence`] | error against cell size, log-log |
 //!
 //! Each has a `draw` that gives a [`Drawing`]: a list of marks, written by [`Drawing::to_svg`] and
@@ -18,6 +19,7 @@
 pub mod animation;
 pub mod bars;
 pub mod convergence;
+pub mod curves;
 pub mod drawing;
 pub mod echo;
 pub mod energy;
@@ -33,6 +35,7 @@ mod writer;
 
 pub use bars::{BarPlot, Bars};
 pub use convergence::{ConvergencePlot, ConvergenceSeries};
+pub use curves::{CurvePanel, CurvePlot};
 pub use drawing::Drawing;
 pub use echo::EchoPlot;
 pub use energy::EnergyPlot;

@@ -62,7 +62,8 @@ pub static METHOD: MethodInfo = MethodInfo {
     ],
 };
 
-const DEFAULT_CELLS: f64 = 10.0;
+/// Cells of a layer whose thickness is not given.
+pub const DEFAULT_CELLS: f64 = 10.0;
 
 pub(crate) fn layout<const D: usize>(
     problem: &Problem<D>,
@@ -108,6 +109,13 @@ pub(crate) fn layout<const D: usize>(
     })
 }
 
+/// Reflection aimed at head-on by a side's layer of so many cells.
+pub fn reflection(method: &SideMethod, cells: f64) -> f64 {
+    method
+        .given_number("reflection")
+        .unwrap_or(default_reflection(cells))
+}
+
 /// Reflection aimed at for a layer of so many cells: thin layers want a large one.
 fn default_reflection(cells: f64) -> f64 {
     const TABLE: [(f64, f64); 4] = [(5.0, -3.0), (10.0, -4.0), (20.0, -6.0), (50.0, -8.0)];
@@ -122,10 +130,7 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
     let strength = |a: &Assigned| {
         let thickness = a.layout.outside;
         let cells = thickness / context.grid.h[a.side.axis];
-        let r = a
-            .method
-            .given_number("reflection")
-            .unwrap_or(default_reflection(cells));
+        let r = reflection(&a.method, cells);
         1.5 * speed * (1.0 / r).ln() / thickness
     };
     let places = &context.points.place[context.layer.clone()];

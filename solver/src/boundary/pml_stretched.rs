@@ -112,7 +112,8 @@ pub static METHOD: MethodInfo = MethodInfo {
     ],
 };
 
-const DEFAULT_CELLS: f64 = 50.0;
+/// Cells of a layer whose thickness is not given.
+pub const DEFAULT_CELLS: f64 = 50.0;
 /// N_t: steps that the memory reaches back.
 const HISTORY: usize = 4;
 

@@ -106,6 +106,7 @@ impl Reflection {
 #[derive(Clone, Copy, Debug)]
 pub struct Medium {
     solid: Elastic,
+    incident: Wave,
     /// xi of P and S (s/m).
     slowness: [Complex64; 2],
     /// Displacements of waves that run to the right, a column each.
@@ -146,10 +147,16 @@ impl Medium {
         let traction = Matrix2::columns(stress(xp, motion.column(0)), stress(xs, motion.column(1)));
         Ok(Medium {
             solid: *solid,
+            incident: wave,
             slowness,
             motion,
             traction,
         })
+    }
+
+    /// The wave that they belong to.
+    pub fn incident(&self) -> Wave {
+        self.incident
     }
 
     /// The reflection of a boundary whose tractions are `-impedance` times the velocity, for each
