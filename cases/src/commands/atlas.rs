@@ -46,12 +46,13 @@ impl Atlas {
 /// Whatever is wrong with the request; what cannot be measured; [`CaseError::Storage`].
 pub fn atlas(options: &Options) -> Result<Atlas, CaseError> {
     let target = Target::find(&options.request)?;
-    let scenes = scenes(&target, options)?;
+    let (scenes, mut notes) = scenes(&target, options)?;
     let store = Store::open(&options.out, &format!("{}-atlas", target.info.name))?;
     let subjects = scenes.iter().map(Subject::of);
     let subjects = subjects.collect::<Result<Vec<_>, _>>()?;
     let measured = measure_all(subjects, options.jobs)?;
-    let (all, notes) = rows::rows(target.info.name, target.profile.name, &measured);
+    let (all, unjudged) = rows::rows(target.info.name, target.profile.name, &measured);
+    notes.extend(unjudged);
     let folder = store.folder();
     let failed = |what: &str, error: &dyn std::fmt::Display| CaseError::Report {
         what: what.to_owned(),
@@ -94,21 +95,40 @@ pub fn atlas(options: &Options) -> Result<Atlas, CaseError> {
     })
 }
 
-/// The scene with each method that is asked for.
-fn scenes(target: &Target, options: &Options) -> Result<Vec<Prepared>, CaseError> {
-    let all = target.info.methods.iter().filter(|m| !m.on_request);
-    let names: Vec<&str> = match options.methods.as_slice() {
-        [] => all.map(|m| m.name).collect(),
-        asked => asked.iter().map(String::as_str).collect(),
-    };
-    let prepared = names.iter().map(|name| target.prepare(Some(name)));
-    let prepared = prepared.collect::<Result<Vec<_>, _>>()?;
+/// The scene with each method that is asked for, and why others are left out: methods that nobody
+/// named and that the scene refuses.
+fn scenes(target: &Target, options: &Options) -> Result<(Vec<Prepared>, Vec<String>), CaseError> {
+    let (mut scenes, mut left_out) = (Vec::new(), Vec::new());
+    if options.methods.is_empty() {
+        for method in target.info.methods.iter().filter(|m| !m.on_request) {
+            match target.prepare(Some(method.name)) {
+                Ok(scene) => scenes.push(scene),
+                Err(error) => left_out.push((method.name, error)),
+            }
+        }
+        if target.names_sides() {
+            let described = target.prepare(None)?;
+            scenes.retain(|scene| scene.method != described.method);
+            scenes.push(described);
+        }
+    }
+    for name in &options.methods {
+        scenes.push(target.prepare(Some(name))?);
+    }
+    // what no method can be prepared with is wrong with the scene
+    if scenes.is_empty()
+        && let Some((_, error)) = left_out.pop()
+    {
+        return Err(error);
+    }
     // an assignment is lost if it reached no method
-    let lost = |set: &&String| prepared.iter().all(|scene| scene.unused.contains(set));
-    let unused = prepared.first().map(|scene| &scene.unused);
+    let lost = |set: &&String| scenes.iter().all(|scene| scene.unused.contains(set));
+    let unused = scenes.first().map(|scene| &scene.unused);
     let unused: Vec<String> = unused.into_iter().flatten().filter(lost).cloned().collect();
     plan::refuse_unused(&unused)?;
-    Ok(prepared)
+    let notes = left_out.into_iter();
+    let notes = notes.map(|(name, why)| format!("{name} is left out: {why}"));
+    Ok((scenes, notes.collect()))
 }
 
 fn summary_of(scene: &Prepared) -> RunSummary {

@@ -70,12 +70,17 @@ impl CurvePlot {
                 y: y.clone(),
             };
             panel.grid(&mut drawing);
+            // below the curves in their method's colour, above them as a black core
+            for line in &content.closed {
+                let stroke = Stroke::dashed(palette::method(&line.name), 2.4);
+                draw_line(&mut drawing, &panel, line, stroke, false);
+            }
             for line in &content.lines {
                 let stroke = Stroke::solid(palette::method(&line.name), 2.4);
                 draw_line(&mut drawing, &panel, line, stroke, self.x_log);
             }
             for line in &content.closed {
-                let stroke = Stroke::dashed(palette::INK, 1.0);
+                let stroke = Stroke::dashed(palette::INK, 0.8);
                 draw_line(&mut drawing, &panel, line, stroke, false);
             }
             panel.frame(&mut drawing, true, i == 0);
@@ -163,5 +168,59 @@ fn draw_line(drawing: &mut Drawing, panel: &Panel, line: &Line, stroke: Stroke, 
     }
     for point in points.iter().filter(|p| dots && p.1 < foot) {
         drawing.add(Mark::Dot(*point, 3.0, stroke.colour));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plot() -> CurvePlot {
+        let line = |name: &str, y: [f64; 3]| Line {
+            name: name.to_owned(),
+            x: vec![1.0, 10.0, 100.0],
+            y: y.to_vec(),
+        };
+        let panel = |title: &str| CurvePanel {
+            title: title.to_owned(),
+            lines: vec![
+                line("dashpot", [0.1, 0.2, 0.4]),
+                line("pml", [1e-9, 1e-3, 0.1]),
+            ],
+            closed: vec![line("dashpot", [0.1, 0.2, 0.4])],
+        };
+        CurvePlot {
+            panels: vec![panel("P"), panel("S")],
+            x: ("cells".into(), String::new()),
+            x_log: true,
+            y: "reflection".into(),
+            lowest: 1e-5,
+        }
+    }
+
+    #[test]
+    fn methods_are_named_once_and_what_lies_below_is_not_marked() {
+        let drawing = plot().draw().unwrap();
+        let svg = drawing.to_svg().unwrap();
+        for name in ["dashpot", "pml", CLOSED] {
+            assert_eq!(svg.matches(&format!(">\n{name}\n")).count(), 1, "{name}");
+        }
+        let dots = |m: &&Mark| matches!(m, Mark::Dot(..));
+        assert_eq!(drawing.marks.iter().filter(dots).count(), 2 * 5);
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_refused() {
+        let mut bad = plot();
+        bad.panels[0].lines[0].y.pop();
+        assert!(matches!(bad.draw(), Err(PlotError::Shape { .. })));
+        let mut bad = plot();
+        bad.panels[1].closed[0].y[0] = f64::NAN;
+        assert!(matches!(bad.draw(), Err(PlotError::NonFinite { .. })));
+        let mut bad = plot();
+        bad.panels[0].lines[0].x[0] = 0.0;
+        assert!(matches!(bad.draw(), Err(PlotError::Empty { .. })));
+        bad.lowest = 1.0;
+        assert!(matches!(bad.draw(), Err(PlotError::Empty { .. })));
     }
 }
