@@ -107,7 +107,11 @@ pub fn modes([before, at, after]: [Matrix2; 3]) -> Result<[Mode; 2], AtlasError>
 fn null_vector(matrix: &Matrix2) -> [Complex64; 2] {
     let size = |row: &[Complex64; 2]| row[0].norm().hypot(row[1].norm());
     let [first, second] = &matrix.0;
-    let row = if size(first) > size(second) { first } else { second };
+    let row = if size(first) > size(second) {
+        first
+    } else {
+        second
+    };
     let length = size(row);
     [-row[1] / length, row[0] / length]
 }
@@ -156,9 +160,7 @@ pub fn reflection(stiffness: &Stiffness, turn: f64) -> Result<Reflection, AtlasE
 /// A column without waves.
 pub fn turn_of(stiffness: &Stiffness, wave: Wave, angle: f64) -> Result<f64, AtlasError> {
     let slope = angle.to_radians().tan();
-    let plain = |turn: f64| {
-        modes(stiffness.turned(PLAIN, turn)).map(|m| m[wave as usize].turn())
-    };
+    let plain = |turn: f64| modes(stiffness.turned(PLAIN, turn)).map(|m| m[wave as usize].turn());
     // the steeper the wave along the side, the less is left across it
     let (mut low, mut high) = (0.0, PI);
     for _ in 0..60 {
@@ -169,5 +171,9 @@ pub fn turn_of(stiffness: &Stiffness, wave: Wave, angle: f64) -> Result<f64, Atl
             low = middle;
         }
     }
-    Ok(if angle == 0.0 { 0.0 } else { 0.5 * (low + high) })
+    Ok(if angle == 0.0 {
+        0.0
+    } else {
+        0.5 * (low + high)
+    })
 }

@@ -18,7 +18,7 @@ pub const EXTRAPOLATED: [f64; 4] = [30.0, 60.0, 75.0, 85.0];
 const LAYERS: [f64; 13] = [
     2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 14.0, 20.0, 28.0, 40.0, 50.0, 60.0, 80.0,
 ];
-/// Cells over those of the scene, the two finest last.
+/// Cells over those of the scene, itself included, the two finest last.
 const LEVELS: [f64; 6] = [2.0, 1.25, 1.0, 0.625, 0.5, 0.25];
 /// A level needs so many cells in the shorter wave.
 const FEWEST_CELLS: f64 = 5.0;
@@ -34,6 +34,8 @@ pub struct Measured {
     pub thickness: Vec<(f64, [f64; 2])>,
     /// On other cells.
     pub levels: Vec<Level>,
+    /// What comes back of a Rayleigh wave, where it was asked for.
+    pub surface: Option<f64>,
 }
 
 /// What comes back on cells of one size.
@@ -54,14 +56,21 @@ impl Measured {
     }
 
     /// What the two finest levels leave for cells of no size at an angle of [`EXTRAPOLATED`], whose
-    /// error falls with the square of the size.
-    pub fn extrapolated(&self, wave: Wave, angle: usize) -> Option<f64> {
-        let [.., coarse, fine] = self.levels.as_slice() else {
+    /// error falls with the square of the size; and what is left of the error of fourth order, from how
+    /// the scene's own cells and the coarser of the two would have it.
+    pub fn extrapolated(&self, wave: Wave, angle: usize) -> Option<(f64, f64)> {
+        let [.., fine, finest] = self.levels.as_slice() else {
             return None;
         };
-        let at = |level: &Level| level.angles[angle][wave as usize];
-        let ratio = (coarse.h / fine.h).powi(2);
-        Some((ratio * at(fine) - at(coarse)) / (ratio - 1.0))
+        let own = self.levels.iter().find(|level| level.h == self.subject.h)?;
+        let limit = |coarse: &Level, fine: &Level| {
+            let at = |level: &Level| level.angles[angle][wave as usize];
+            let ratio = (coarse.h / fine.h).powi(2);
+            (ratio * at(fine) - at(coarse)) / (ratio - 1.0)
+        };
+        let value = limit(fine, finest);
+        let ratio = (own.h / fine.h).powi(4);
+        Some((value, (value - limit(own, fine)).abs() / (ratio - 1.0)))
     }
 }
 
@@ -117,6 +126,7 @@ pub fn measure_all(subjects: Vec<Subject>, jobs: usize) -> Result<Vec<Measured>,
         angles: Vec::new(),
         thickness: Vec::new(),
         levels: Vec::new(),
+        surface: None,
     };
     let mut all: Vec<Measured> = subjects.into_iter().map(blank).collect();
     for (index, done) in done {

@@ -17,7 +17,7 @@
 //! where a method has one.
 //!
 //! [`subject`] takes a method out of a scene, [`measure`] says what is measured of it, [`rows`] judges,
-//! [`pictures`] draws.
+//! [`pictures`] draws; [`surface`] measures Rayleigh waves, by runs in time.
 
 pub mod bloch;
 pub mod measure;
@@ -25,6 +25,7 @@ pub mod pictures;
 pub mod rows;
 pub mod strip;
 pub mod subject;
+pub mod surface;
 
 use anechoic_reference::analytic::oblique::{Reflection, Wave};
 use anechoic_solver::error::SolverError;
@@ -44,13 +45,17 @@ pub enum AtlasError {
         reason: &'static str,
     },
     /// A memory of a layer that has not settled, or grows.
-    #[error("the forces of a harmonic motion had not settled to a harmonic state ({missed:.1e} of them differ): the layer's memory grows or is longer than the switch-on; try a smaller time.dt_s")]
+    #[error(
+        "the forces of a harmonic motion had not settled to a harmonic state ({missed:.1e} of them differ): the layer's memory grows or is longer than the switch-on; try a smaller time.dt_s"
+    )]
     NotSettled {
         /// Share of the forces.
         missed: f64,
     },
     /// Equations without a solution.
-    #[error("{0} cannot be found at this frequency: choose another source.frequency_Hz or smaller cells (grid.h_m)")]
+    #[error(
+        "{0} cannot be found at this frequency: choose another source.frequency_Hz or smaller cells (grid.h_m)"
+    )]
     Degenerate(&'static str),
     /// The solver refuses or fails.
     #[error(transparent)]

@@ -44,7 +44,12 @@ impl Strip {
     ///
     /// # Errors
     /// A basis whose functions reach beyond the next node.
-    pub fn new(like: &Problem<2>, method: &SideMethod, h: f64, inside: f64) -> Result<Self, AtlasError> {
+    pub fn new(
+        like: &Problem<2>,
+        method: &SideMethod,
+        h: f64,
+        inside: f64,
+    ) -> Result<Self, AtlasError> {
         if like.basis == BasisKind::Bspline {
             return Err(AtlasError::Unsupported {
                 field: "basis",

@@ -8,7 +8,7 @@ use anechoic_reference::analytic::elastic::Elastic;
 use anechoic_reference::analytic::oblique::damping::Layer;
 use anechoic_reference::analytic::oblique::{Medium, ObliqueError, Wave};
 use anechoic_solver::boundary::{ParamKind, SideMethod, Value, find, pml};
-use anechoic_solver::problem::{Drive, Problem, Scheme};
+use anechoic_solver::problem::{Drive, PointMode, Problem, Scheme, Transfer};
 
 /// A method with what the scene puts around it.
 #[derive(Clone, Debug)]
@@ -151,11 +151,25 @@ impl Subject {
         )
     }
 
-    fn medium(&self, wave: Wave, angle: f64) -> Result<Medium, ObliqueError> {
+    /// The scene's problem with points at rest.
+    pub fn resting(&self) -> Problem<2> {
+        Problem {
+            cell_size: self.h,
+            point_mode: PointMode::Frozen,
+            transfer: Transfer::Keep,
+            ..self.like.clone()
+        }
+    }
+
+    /// The scene's material.
+    pub fn solid(&self) -> Elastic {
         let m = &self.like.material;
-        let solid = Elastic::new(m.youngs_modulus, m.poissons_ratio, m.density)
-            .expect("a material that the solver took");
-        Medium::new(&solid, wave, angle)
+        Elastic::new(m.youngs_modulus, m.poissons_ratio, m.density)
+            .expect("a material that the solver took")
+    }
+
+    fn medium(&self, wave: Wave, angle: f64) -> Result<Medium, ObliqueError> {
+        Medium::new(&self.solid(), wave, angle)
     }
 
     /// Reflection that a perfectly matched layer aims at.

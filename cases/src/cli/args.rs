@@ -308,6 +308,9 @@ pub struct AtlasArgs {
     /// Results folder.
     #[arg(long, value_name = "DIR", default_value = "results")]
     out: PathBuf,
+    /// Rayleigh waves as well, by runs in time: half a minute for each method.
+    #[arg(long)]
+    pub surface: bool,
     /// Responses measured at a time [default: one a processor].
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,

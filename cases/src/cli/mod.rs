@@ -69,7 +69,7 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
         }
         Some(Command::Atlas(arguments)) => {
             stop_on_interrupt()?;
-            let atlas = commands::atlas(&arguments.options())?;
+            let atlas = commands::atlas(&arguments.options(), arguments.surface)?;
             for note in &atlas.notes {
                 eprintln!("note: {note}");
             }

@@ -3,7 +3,7 @@
 use super::{Options, plan};
 use crate::atlas::measure::measure_all;
 use crate::atlas::subject::Subject;
-use crate::atlas::{pictures, rows};
+use crate::atlas::{pictures, rows, surface};
 use crate::error::{CaseError, exit};
 use crate::filter::Filter;
 use crate::prepare::{Prepared, Target};
@@ -40,17 +40,26 @@ impl Atlas {
 }
 
 /// Measures the reflection of plane waves from the sides of all methods of a scene that apply (or of
-/// those that are named), judges it by closed forms, and writes rows, pictures and report.
+/// those that are named), and of Rayleigh waves if `rayleigh` asks for it; judges it by closed forms, and
+/// writes rows, pictures and report.
 ///
 /// # Errors
 /// Whatever is wrong with the request; what cannot be measured; [`CaseError::Storage`].
-pub fn atlas(options: &Options) -> Result<Atlas, CaseError> {
+pub fn atlas(options: &Options, rayleigh: bool) -> Result<Atlas, CaseError> {
     let target = Target::find(&options.request)?;
     let (scenes, mut notes) = scenes(&target, options)?;
     let store = Store::open(&options.out, &format!("{}-atlas", target.info.name))?;
     let subjects = scenes.iter().map(Subject::of);
     let subjects = subjects.collect::<Result<Vec<_>, _>>()?;
-    let measured = measure_all(subjects, options.jobs)?;
+    let returned = if rayleigh {
+        surface::measure(&subjects, options.jobs)?
+    } else {
+        Vec::new()
+    };
+    let mut measured = measure_all(subjects, options.jobs)?;
+    for (method, value) in measured.iter_mut().zip(returned) {
+        method.surface = Some(value);
+    }
     let (all, unjudged) = rows::rows(target.info.name, target.profile.name, &measured);
     notes.extend(unjudged);
     let folder = store.folder();
