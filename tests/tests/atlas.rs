@@ -6,6 +6,9 @@
 use anechoic::atlas::Side;
 use anechoic::atlas::bloch::{modes, reflection};
 use anechoic::atlas::strip::{Stiffness, Strip};
+use anechoic::atlas::subject::Subject;
+use anechoic::atlas::surface;
+use anechoic::prepare::{Request, Target};
 use anechoic_reference::analytic::elastic::Elastic;
 use anechoic_reference::analytic::oblique::matrix2::Matrix2;
 use anechoic_reference::analytic::oblique::{Medium, Reflection, Wave};
@@ -275,6 +278,25 @@ fn runs_in_time_reflect_as_the_atlas_says() {
         assert!(atlas.largest() > 1e-3);
         assert!(difference < 1e-9, "{method:?}");
     }
+}
+
+/// Surface waves, by runs in time: a wall returns most of them (the rest goes down as P and S), a dashpot
+/// of body waves' impedances an eighth, a true layer next to nothing.
+#[test]
+fn surface_waves_come_back_from_what_is_not_made_for_them() {
+    let request = Request {
+        target: "point-source".to_owned(),
+        ..Request::default()
+    };
+    let target = Target::find(&request).unwrap();
+    let subjects = ["fixed-at-target", "dashpot", "pml"]
+        .map(|method| Subject::of(&target.prepare(Some(method)).unwrap()).unwrap());
+    let returned = surface::measure(&subjects, 1).unwrap();
+    println!("Rayleigh: {returned:?}");
+    let [wall, dashpot, layer] = returned.try_into().unwrap();
+    assert!((0.5..1.0).contains(&wall), "{wall}");
+    assert!((0.05..0.25).contains(&dashpot), "{dashpot}");
+    assert!(layer < 0.01 && layer < 0.05 * dashpot, "{layer}");
 }
 
 /// The command on a small scale: rows, verdicts, files.
