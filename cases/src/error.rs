@@ -1,5 +1,6 @@
 //! What can go wrong, where, and what to do about it; each error knows its exit code.
 
+use crate::atlas::AtlasError;
 use anechoic_solver::error::SolverError;
 use std::fmt;
 use std::path::PathBuf;
@@ -183,6 +184,9 @@ pub enum CaseError {
     /// The problem cannot be set up for a reason the scene did not see.
     #[error("{0}")]
     Solver(#[from] SolverError),
+    /// A reflection cannot be measured.
+    #[error(transparent)]
+    Atlas(#[from] AtlasError),
     /// Work that was asked to stop.
     #[error("{0} was stopped before its end")]
     Stopped(String),
@@ -212,9 +216,13 @@ impl CaseError {
             | CaseError::Series { .. }
             | CaseError::Filter { .. }
             | CaseError::Usage(_)
+            | CaseError::Atlas(
+                AtlasError::Unsupported { .. } | AtlasError::Solver(SolverError::Setup { .. }),
+            )
             | CaseError::Solver(SolverError::Setup { .. }) => exit::USAGE,
             CaseError::Storage { .. }
             | CaseError::Solver(_)
+            | CaseError::Atlas(_)
             | CaseError::Stopped(_)
             | CaseError::NothingWhole { .. }
             | CaseError::Unreadable { .. }

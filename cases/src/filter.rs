@@ -7,6 +7,7 @@ use anechoic_reports::row::Row;
 /// Metrics that rows may hold, costs aside.
 const METRICS: &[&str] = &[
     "residual",
+    "reflection",
     "echo_ratio",
     "amplitude_ratio",
     "echo_level_db",

@@ -11,8 +11,10 @@
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
 //! - [`over`]: levels of convergence studies; [`sweep`]: points of sweeps.
 //! - [`timing`]: runs for their time alone; [`awake`]: cells that a wave has reached.
+//! - [`atlas`]: what sides reflect of plane waves, by angle.
 //! - [`commands`], [`cli`]: the program.
 
+pub mod atlas;
 pub mod awake;
 pub mod certified;
 pub mod checks;

@@ -9,11 +9,14 @@ pub mod stored;
 use crate::certified::library::Library;
 use crate::error::CaseError;
 use crate::judge::references::References;
-use crate::judge::{Judged, PAPER, REFERENCE, judge_levels, judge_points, judge_runs, judge_stability, judge_trades, rows_unread};
+use crate::judge::{
+    Judged, PAPER, REFERENCE, judge_levels, judge_points, judge_runs, judge_stability,
+    judge_trades, rows_unread,
+};
 use crate::pictures::{self, Picture, animation};
 use crate::runner::Run;
-use crate::timing;
 use crate::store::{save_rows, write_file};
+use crate::timing;
 use anechoic_reports::convergence::Convergence;
 use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
 use anechoic_reports::html;
@@ -22,9 +25,9 @@ use anechoic_reports::provenance::Provenance;
 use anechoic_reports::ranking::{Floor, Ranking};
 use anechoic_reports::row::Row;
 use anechoic_reports::stability::Stability;
+use anechoic_reports::study::{self as reports, Figure, LedgerEntry, RunSummary};
 use anechoic_reports::sweep::Sweep;
 use anechoic_reports::tradeoff::Tradeoff;
-use anechoic_reports::study::{self as reports, Figure, LedgerEntry, RunSummary};
 use anechoic_solver::record::Status;
 pub use kind::Kind;
 use std::path::{Path, PathBuf};
@@ -193,8 +196,7 @@ fn judge_study(study: &Study, references: &References) -> Result<Told, CaseError
         Kind::Tradeoff(grid) => {
             let (mut judged, sweep) = judge_points(&study.runs, grid, references);
             let timings = timing::load(&study.folder)?;
-            let (tradeoff, rows) =
-                judge_trades(&study.runs, grid, &sweep, references, &timings)?;
+            let (tradeoff, rows) = judge_trades(&study.runs, grid, &sweep, references, &timings)?;
             // What was asked comes first.
             judged.rows.splice(0..0, rows);
             Told {
@@ -228,7 +230,7 @@ fn judge_study(study: &Study, references: &References) -> Result<Told, CaseError
                 judged: judge_runs(&runs, references),
                 ..Told::default()
             }
-        },
+        }
     })
 }
 
@@ -350,7 +352,7 @@ fn rank(rows: &[Row]) -> Ranking {
 }
 
 /// Writes a picture as SVG and PNG, and gives it as the report shows it.
-fn save_picture(folder: &Path, picture: &Picture) -> Result<Figure, CaseError> {
+pub(crate) fn save_picture(folder: &Path, picture: &Picture) -> Result<Figure, CaseError> {
     let wrong = |e: PlotError| failed(&picture.name, &e);
     let path = folder.join(&picture.name);
     let svg = picture.drawing.to_svg().map_err(wrong)?;

@@ -1,13 +1,13 @@
 //! Everything that a report shows, as data.
 
 use crate::convergence::Convergence;
-use crate::stability::Stability;
-use crate::sweep::Sweep;
-use crate::tradeoff::Tradeoff;
 use crate::plot::{Drawing, PlotError};
 use crate::provenance::Provenance;
 use crate::ranking::Ranking;
 use crate::row::Row;
+use crate::stability::Stability;
+use crate::sweep::Sweep;
+use crate::tradeoff::Tradeoff;
 use anechoic_solver::record::{Cost, Status};
 use serde::{Deserialize, Serialize};
 

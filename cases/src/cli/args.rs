@@ -19,6 +19,7 @@ Examples:
   anechoic ablation point-source                      what each part of a method absorbs
   anechoic converge lamb --over grid.h_m=20,10        the order with which errors fall
   anechoic sweep point-source --over pml.thickness_m=100..400:100
+  anechoic atlas point-source                         reflection of plane waves by angle
   anechoic report results                             rebuild the report from records
   anechoic diff before after                          what moved between two results
   anechoic score compression-1d series.csv            another program's series beside ours
@@ -112,6 +113,12 @@ pub enum Command {
     Compare(CompareArgs),
     /// Take a method apart: solve its variants and judge what each part absorbs.
     Ablation(WorkArgs),
+    /// Measure what sides reflect of plane P and S waves: against angle, thickness of the layer, and
+    /// cells in a wavelength.
+    ///
+    /// The solver's own steps on a strip in a harmonic state, judged by closed forms; seconds. The
+    /// frequency is that of the scene's source, cells and steps are the scene's, points rest.
+    Atlas(AtlasArgs),
     /// Refine a scene with one method: errors on all levels, and the order they fall with.
     #[command(after_help = CONVERGE_EXAMPLES)]
     Converge(ConvergeArgs),
@@ -379,10 +386,7 @@ impl WorkArgs {
             filter: self.filter.clone(),
             sampling: Sampling::default(),
             out: self.out.clone(),
-            jobs: match self.jobs {
-                Some(jobs) => jobs.into(),
-                None => std::thread::available_parallelism().map_or(1, usize::from),
-            },
+            jobs: threads(self.jobs),
             repeats: 0,
             reuse: match (self.resume, self.failed) {
                 (true, _) => Reuse::Whole,
@@ -392,6 +396,54 @@ impl WorkArgs {
             command: typed(),
         }
     }
+}
+
+/// Which scene, which methods, where to.
+#[derive(Debug, Args)]
+pub struct AtlasArgs {
+    #[command(flatten)]
+    scene: SceneArgs,
+    /// Boundary method, as a preset over sides; repeatable [default: all that apply].
+    #[arg(long)]
+    method: Vec<String>,
+    /// Only rows whose METHOD/METRIC/WHERE contains this.
+    #[arg(long, value_parser = NonEmptyStringValueParser::new())]
+    filter: Option<String>,
+    /// Results folder.
+    #[arg(long, value_name = "DIR", default_value = "results")]
+    out: PathBuf,
+    /// Rayleigh waves as well, by runs in time: half a minute for each method.
+    #[arg(long)]
+    pub surface: bool,
+    /// Responses measured at a time [default: one a processor].
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Output format.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+impl AtlasArgs {
+    /// The options, with the command as typed.
+    pub fn options(&self) -> Options {
+        Options {
+            request: self.scene.request(),
+            methods: self.method.clone(),
+            filter: self.filter.clone(),
+            out: self.out.clone(),
+            sampling: Sampling::default(),
+            jobs: threads(self.jobs),
+            repeats: 0,
+            reuse: Reuse::Nothing,
+            command: typed(),
+        }
+    }
+}
+
+/// As many as asked for, or as there are processors.
+fn threads(asked: Option<u16>) -> usize {
+    let all = || std::thread::available_parallelism().map_or(1, usize::from);
+    asked.map_or_else(all, usize::from)
 }
 
 /// Which series, and what they are judged by.

@@ -67,6 +67,15 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             let plan = commands::plan_ablation(&options)?;
             return solve_or_show(work, &options, &plan, || commands::ablation(&options));
         }
+        Some(Command::Atlas(arguments)) => {
+            stop_on_interrupt()?;
+            let atlas = commands::atlas(&arguments.options(), arguments.surface)?;
+            for note in &atlas.notes {
+                eprintln!("note: {note}");
+            }
+            print::out(&print::atlas(&atlas, arguments.format)?);
+            return Ok(atlas.exit_code());
+        }
         Some(Command::Converge(converge)) => {
             let (options, over) = (converge.options(), Over::parse(&converge.over)?);
             let plan = commands::plan_converge(&options, &over)?;

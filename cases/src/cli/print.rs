@@ -3,7 +3,7 @@
 use super::args::Format;
 use crate::certified::causality::with_buffers;
 use crate::certified::library::Library;
-use crate::commands::{Finished, Recomputed};
+use crate::commands::{Atlas, Finished, Recomputed};
 use crate::error::CaseError;
 use crate::field::short;
 use crate::prepare::Prepared;
@@ -12,7 +12,11 @@ use crate::store;
 use anechoic_reports::export::summary_json;
 use anechoic_reports::format;
 use anechoic_reports::judge::Tally;
-use anechoic_reports::table::{convergence_table, measurement_table, ranking_table, stability_table, sweep_table, tradeoff_table, verdict_table};
+use anechoic_reports::row::Row;
+use anechoic_reports::table::{
+    convergence_table, measurement_table, ranking_table, stability_table, sweep_table,
+    tradeoff_table, verdict_table,
+};
 use anechoic_solver::Bill;
 use anechoic_solver::boundary::METHODS;
 use anechoic_solver::problem::{PointMode, Problem, Transfer};
@@ -261,10 +265,7 @@ pub fn recomputed(recomputed: &Recomputed) -> String {
 pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError> {
     if format == Format::Json {
         let rows: Vec<_> = studies.iter().flat_map(|s| s.rows.clone()).collect();
-        return summary_json(&rows).map_err(|error| CaseError::Report {
-            what: "the rows as JSON".into(),
-            reason: error.to_string(),
-        });
+        return rows_as_json(&rows);
     }
     let mut text = String::new();
     for finished in studies {
@@ -298,6 +299,30 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
         }
     }
     Ok(text)
+}
+
+/// Verdicts of an atlas and where its report lies; or the rows as JSON.
+pub fn atlas(atlas: &Atlas, format: Format) -> Result<String, CaseError> {
+    if format == Format::Json {
+        return rows_as_json(&atlas.rows);
+    }
+    let tally = Tally::of(&atlas.rows);
+    Ok(format!(
+        "{}{} pass, {} fail, {} not evaluated\n\n{}\nreport: {}\n",
+        verdict_table(&atlas.rows),
+        tally.pass,
+        tally.fail,
+        tally.not_evaluated,
+        measurement_table(&atlas.rows),
+        atlas.report.display()
+    ))
+}
+
+fn rows_as_json(rows: &[Row]) -> Result<String, CaseError> {
+    summary_json(rows).map_err(|error| CaseError::Report {
+        what: "the rows as JSON".into(),
+        reason: error.to_string(),
+    })
 }
 
 /// What is to be known of the results, for stderr: runs that did not end, references, pictures, notes.

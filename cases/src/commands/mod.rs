@@ -1,5 +1,6 @@
 //! What the program does, for callers that are not its command line: nothing here prints.
 
+mod atlas;
 mod diff;
 mod export;
 mod plan;
@@ -18,18 +19,19 @@ use crate::resume::{Reuse, Todo, folder, tasks};
 use crate::runner::{Task, pool, run_all};
 use crate::store::Store;
 use crate::study::stored::{Found, Study, find_studies};
-use crate::timing;
 use crate::study::{ANIMATION, Kind, Published, publish};
+use crate::timing;
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::problem::Problem;
 use anechoic_solver::record::Status;
-use rayon::prelude::*;
-use std::collections::BTreeMap;
+pub use atlas::{Atlas, atlas};
 pub use diff::compare_rows;
 pub use export::{Exported, export};
 pub use plan::Plan;
+use rayon::prelude::*;
 pub use score::{ScoreOptions, score};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// What `run` and `compare` are asked.
@@ -419,11 +421,11 @@ fn provide_references<'a>(
             problems.insert(hash, (scene.info.name, problem));
         }
     }
-    let obtain = |(_, (case, problem)): (_, (&str, Problem<2>))| match library.obtain(case, &problem)
-    {
-        Ok(_) | Err(CaseError::Solver(_) | CaseError::Stopped(_)) => Ok(()),
-        Err(error) => Err(error),
-    };
+    let obtain =
+        |(_, (case, problem)): (_, (&str, Problem<2>))| match library.obtain(case, &problem) {
+            Ok(_) | Err(CaseError::Solver(_) | CaseError::Stopped(_)) => Ok(()),
+            Err(error) => Err(error),
+        };
     let problems: Vec<_> = problems.into_iter().collect();
     pool(jobs)?.install(|| {
         problems

@@ -19,9 +19,9 @@ pub use certified::CERTIFIER;
 pub use levels::judge_levels;
 pub use points::judge_points;
 pub use rows::rows_unread;
+pub use series::{traces, traces_of};
 pub use stability::judge_stability;
 pub use trades::judge_trades;
-pub use series::{traces, traces_of};
 
 use crate::certified::Certified;
 use crate::runner::Run;

@@ -57,7 +57,9 @@ fn judge_part(
                 judged.notes.push(format!("{name}, {}: {why}", point.label));
             }
             let grows = super::growth::unstable(run, &mut []);
-            judged.notes.extend(grows.map(|why| format!("{}: {why}", point.label)));
+            judged
+                .notes
+                .extend(grows.map(|why| format!("{}: {why}", point.label)));
             let numbers: Vec<Measurement> =
                 measured.numbers.into_iter().filter(of_a_group).collect();
             let rows = rows_of(run, names_of(run), &numbers, Vec::new(), None);

@@ -52,7 +52,9 @@ impl Kind {
             Kind::Comparison => case.to_owned(),
             Kind::Ablation => format!("{case}-ablation"),
             Kind::Convergence { .. } => format!("{case}-converge"),
-            Kind::Sweep(grid) | Kind::Tradeoff(grid) | Kind::Stability(grid) => format!("{case}-{}", grid.name),
+            Kind::Sweep(grid) | Kind::Tradeoff(grid) | Kind::Stability(grid) => {
+                format!("{case}-{}", grid.name)
+            }
         }
     }
 

@@ -7,8 +7,8 @@ use crate::format;
 use crate::ranking::Ranking;
 use crate::row::{Row, Verdict};
 use crate::stability::{self, Stability, StabilityPart};
-use crate::sweep::{self, SweepPart};
 use crate::study::{Finding, LedgerEntry, RunSummary};
+use crate::sweep::{self, SweepPart};
 use crate::table::{convergence_cells, convergence_head, ranking_cells, value_text, verdict_name};
 use anechoic_solver::record::Status;
 use maud::{Markup, html};
@@ -128,7 +128,11 @@ pub(super) fn convergence(convergence: &Convergence) -> Markup {
 }
 
 /// A table of texts; columns from `numbers` on are aligned as numbers.
-pub(super) fn texts<const N: usize>(head: &[&str; N], rows: &[[String; N]], numbers: usize) -> Markup {
+pub(super) fn texts<const N: usize>(
+    head: &[&str; N],
+    rows: &[[String; N]],
+    numbers: usize,
+) -> Markup {
     html! {
         div.scroll {
             table {

@@ -11,6 +11,7 @@
 //! | [`animation`] | the same as an animated GIF, one frame a time |
 //! | [`map`] | outcomes of methods at extremes |
 //! | [`points`] | numbers of methods over a parameter or their cost |
+//! | [`curves`] | methods over any abscissa, log-log or half, closed forms dashed |
 //! | [`convergence`] | error against cell size, log-log |
 //!
 //! Each has a `draw` that gives a [`Drawing`]: a list of marks, written by [`Drawing::to_svg`] and
@@ -20,6 +21,7 @@
 pub mod animation;
 pub mod bars;
 pub mod convergence;
+pub mod curves;
 pub mod drawing;
 pub mod echo;
 pub mod energy;
@@ -37,6 +39,7 @@ mod writer;
 
 pub use bars::{BarPlot, Bars};
 pub use convergence::{ConvergencePlot, ConvergenceSeries};
+pub use curves::{CurvePanel, CurvePlot};
 pub use drawing::Drawing;
 pub use echo::EchoPlot;
 pub use energy::EnergyPlot;

@@ -8,7 +8,7 @@
 //! 1 - beta in every step, which is the rate beta/dt. Where layers of two sides meet the larger rate
 //! holds.
 
-use super::params::{Ladder, MethodInfo, Param, ParamKind, SideMethod, Rungs};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::physics::kernel::{Lumped, NodeTerm};
@@ -70,14 +70,16 @@ pub static METHOD: MethodInfo = MethodInfo {
             rungs: Rungs::Numbers(&[6.0, 12.0, 24.0]),
         },
     ],
-    extremes: &[Ladder {
-        param: "thickness_m",
-        rungs: Rungs::Cells(&[1.0, 100.0]),
-    },
-    Ladder {
-        param: "sigma_max_per_s",
-        rungs: Rungs::Numbers(&[0.0, 1e3, 1e6]),
-    }],
+    extremes: &[
+        Ladder {
+            param: "thickness_m",
+            rungs: Rungs::Cells(&[1.0, 100.0]),
+        },
+        Ladder {
+            param: "sigma_max_per_s",
+            rungs: Rungs::Numbers(&[0.0, 1e3, 1e6]),
+        },
+    ],
     passive: true,
 };
 

@@ -3,7 +3,7 @@
 //! Not an absorber but the honest competitor, and what certifies itself: the fastest wave from any
 //! place of the body to the outer end and back needs at least `2 thickness / c_p`.
 
-use super::params::{Ladder, MethodInfo, Param, ParamKind, SideMethod, Rungs};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::problem::{Problem, Side};

@@ -14,7 +14,7 @@
 //! The points of the layer rest and its nodes keep their motion; the outer edge is fixed.
 
 use super::layer::{by_axis, relative_depth};
-use super::params::{Ladder, MethodInfo, Param, ParamKind, SideMethod, Rungs};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod};
 use super::{Assigned, Context, End, LayerPoints, Layout, Parts, walls};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
@@ -64,18 +64,21 @@ pub static METHOD: MethodInfo = MethodInfo {
         param: "thickness_m",
         rungs: Rungs::Cells(&[2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 50.0]),
     }],
-    extremes: &[Ladder {
-        param: "thickness_m",
-        rungs: Rungs::Cells(&[1.0, 100.0]),
-    },
-    Ladder {
-        param: "reflection",
-        rungs: Rungs::Numbers(&[0.5, 1e-6, 1e-12]),
-    }],
+    extremes: &[
+        Ladder {
+            param: "thickness_m",
+            rungs: Rungs::Cells(&[1.0, 100.0]),
+        },
+        Ladder {
+            param: "reflection",
+            rungs: Rungs::Numbers(&[0.5, 1e-6, 1e-12]),
+        },
+    ],
     passive: false,
 };
 
-const DEFAULT_CELLS: f64 = 10.0;
+/// Cells of a layer whose thickness is not given.
+pub const DEFAULT_CELLS: f64 = 10.0;
 
 pub(crate) fn layout<const D: usize>(
     problem: &Problem<D>,
@@ -121,6 +124,13 @@ pub(crate) fn layout<const D: usize>(
     })
 }
 
+/// Reflection aimed at head-on by a side's layer of so many cells.
+pub fn reflection(method: &SideMethod, cells: f64) -> f64 {
+    method
+        .given_number("reflection")
+        .unwrap_or(default_reflection(cells))
+}
+
 /// Reflection aimed at for a layer of so many cells: thin layers want a large one.
 fn default_reflection(cells: f64) -> f64 {
     const TABLE: [(f64, f64); 4] = [(5.0, -3.0), (10.0, -4.0), (20.0, -6.0), (50.0, -8.0)];
@@ -135,10 +145,7 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
     let strength = |a: &Assigned| {
         let thickness = a.layout.outside;
         let cells = thickness / context.grid.h[a.side.axis];
-        let r = a
-            .method
-            .given_number("reflection")
-            .unwrap_or(default_reflection(cells));
+        let r = reflection(&a.method, cells);
         1.5 * speed * (1.0 / r).ln() / thickness
     };
     let places = &context.points.place[context.layer.clone()];

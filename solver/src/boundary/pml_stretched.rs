@@ -19,7 +19,7 @@
 //! takes it away. The memory is kept on nodes, where the paper sends it to points and back.
 
 use super::layer::{by_axis, relative_depth};
-use super::params::{Ladder, MethodInfo, Param, ParamKind, SideMethod, Rungs};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod};
 use super::{Context, DisplacementTransfer, End, LayerPoints, Layout, Parts, walls};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
@@ -114,22 +114,24 @@ pub static METHOD: MethodInfo = MethodInfo {
         param: "thickness_m",
         rungs: Rungs::Cells(&[10.0, 20.0, 30.0, 50.0, 100.0]),
     }],
-    extremes: &[Ladder {
-        param: "thickness_m",
-        rungs: Rungs::Cells(&[1.0, 100.0]),
-    },
-    Ladder {
-        param: "alpha",
-        rungs: Rungs::Numbers(&[0.0, 40.0, 1e4]),
-    },
-    Ladder {
-        param: "rayleigh_per_s",
-        rungs: Rungs::Numbers(&[0.0, 100.0, 1e5]),
-    },
-    Ladder {
-        param: "relaxed_modulus_ratio",
-        rungs: Rungs::Numbers(&[1.0, 0.1]),
-    }],
+    extremes: &[
+        Ladder {
+            param: "thickness_m",
+            rungs: Rungs::Cells(&[1.0, 100.0]),
+        },
+        Ladder {
+            param: "alpha",
+            rungs: Rungs::Numbers(&[0.0, 40.0, 1e4]),
+        },
+        Ladder {
+            param: "rayleigh_per_s",
+            rungs: Rungs::Numbers(&[0.0, 100.0, 1e5]),
+        },
+        Ladder {
+            param: "relaxed_modulus_ratio",
+            rungs: Rungs::Numbers(&[1.0, 0.1]),
+        },
+    ],
     passive: false,
 };
 
@@ -143,7 +145,8 @@ pub static METHOD: MethodInfo = MethodInfo {
 /// independent of the wave number k helps.
 pub const LARGEST_SPEED_RATIO: f64 = 1.0 + std::f64::consts::SQRT_2;
 
-const DEFAULT_CELLS: f64 = 50.0;
+/// Cells of a layer whose thickness is not given.
+pub const DEFAULT_CELLS: f64 = 50.0;
 /// N_t: steps that the memory reaches back.
 const HISTORY: usize = 4;
 

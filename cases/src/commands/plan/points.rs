@@ -215,9 +215,9 @@ impl Points {
     pub(super) fn leave_out(&mut self, name: &str, error: CaseError) -> Result<String, CaseError> {
         let why = match (&error, self.alone) {
             // At an extreme every refusal is an answer.
-            (CaseError::Scene(complaints), true) => {
-                complaints.first().map_or(String::new(), ToString::to_string)
-            }
+            (CaseError::Scene(complaints), true) => complaints
+                .first()
+                .map_or(String::new(), ToString::to_string),
             _ => refused(&error).ok_or(error)?,
         };
         self.left_out.push((name.to_owned(), why.clone()));
@@ -239,9 +239,7 @@ fn refused(error: &CaseError) -> Option<String> {
     let CaseError::Scene(complaints) = error else {
         return None;
     };
-    let of_method = complaints
-        .iter()
-        .all(|c| c.field.starts_with("boundary."));
+    let of_method = complaints.iter().all(|c| c.field.starts_with("boundary."));
     let first = complaints.first().filter(|_| of_method)?;
     Some(first.message.clone())
 }
