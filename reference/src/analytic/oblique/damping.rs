@@ -37,7 +37,10 @@ impl<G: Fn(f64) -> f64> Layer<G> {
     pub fn reflection(&self, medium: &Medium, frequency: f64) -> Result<Reflection, ObliqueError> {
         const TOLERANCE: f64 = 1e-9;
         const MOST_STEPS: usize = 1 << 18;
-        for (field, value) in [("thickness (m)", self.thickness), ("frequency (Hz)", frequency)] {
+        for (field, value) in [
+            ("thickness (m)", self.thickness),
+            ("frequency (Hz)", frequency),
+        ] {
             if !(value > 0.0 && value.is_finite()) {
                 let allowed = "a positive finite number";
                 return Err(ObliqueError::OutOfRange {

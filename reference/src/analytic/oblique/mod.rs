@@ -63,10 +63,14 @@ pub enum ObliqueError {
         allowed: &'static str,
     },
     /// A wave that runs along the boundary is its own mirror image.
-    #[error("a wave runs along the boundary at this angle, where reflection has no meaning: choose another")]
+    #[error(
+        "a wave runs along the boundary at this angle, where reflection has no meaning: choose another"
+    )]
     Grazing,
     /// Step halving did not settle.
-    #[error("the reflection still changes by {change:.1e} at {steps} steps through the layer: is its profile smooth and finite?")]
+    #[error(
+        "the reflection still changes by {change:.1e} at {steps} steps through the layer: is its profile smooth and finite?"
+    )]
     NotConverged {
         /// Steps in the finest integration.
         steps: usize,
@@ -131,12 +135,19 @@ impl Medium {
         let speeds = [solid.p_speed(), solid.s_speed()];
         let along = angle.to_radians().sin() / speeds[wave as usize];
         let slowness = speeds.map(|c| vertical_slowness(along.into(), 1.0 / c));
-        if slowness.iter().zip(speeds).any(|(xi, c)| xi.norm() * c < 1e-6) {
+        if slowness
+            .iter()
+            .zip(speeds)
+            .any(|(xi, c)| xi.norm() * c < 1e-6)
+        {
             return Err(ObliqueError::Grazing);
         }
         let p = Complex64::from(along);
         let [xp, xs] = slowness;
-        let motion = Matrix2::columns([xp * speeds[0], p * speeds[0]], [-p * speeds[1], xs * speeds[1]]);
+        let motion = Matrix2::columns(
+            [xp * speeds[0], p * speeds[0]],
+            [-p * speeds[1], xs * speeds[1]],
+        );
         let (lame, shear) = (solid.lame(), solid.shear_modulus());
         let stress = |xi: Complex64, [ux, uy]: [Complex64; 2]| {
             [

@@ -76,7 +76,10 @@ fn dashpots_dissipate_what_does_not_come_back() {
                 .sum();
             let kept = 1.0 - reflection.total(wave).powi(2);
             let share = dissipated / reflection.flux[wave as usize];
-            assert!((share - kept).abs() < 1e-12, "{wave:?} {angle}: {share} {kept}");
+            assert!(
+                (share - kept).abs() < 1e-12,
+                "{wave:?} {angle}: {share} {kept}"
+            );
         }
     }
 }
@@ -130,7 +133,10 @@ fn a_layer_without_damping_is_a_wall_further_out() {
                     *x *= (Complex64::new(0.0, -1.0) * way).exp();
                 }
             }
-            assert!((own.amplitudes - expected).largest() < 1e-7, "{wave:?} {angle}");
+            assert!(
+                (own.amplitudes - expected).largest() < 1e-7,
+                "{wave:?} {angle}"
+            );
         }
     }
 }
@@ -160,9 +166,8 @@ fn constant_damping_is_a_slab_of_complex_density() {
         let traction = Matrix2::columns(stress(xi[0], shapes[0]), stress(xi[1], shapes[1]));
         let back = mirror().scale(-Complex64::ONE) * traction;
         // from the wall at the far end to the impedance T = Z u at the inner edge
-        let ways = Matrix2::diagonal(
-            xi.map(|x| (Complex64::new(0.0, -angular * thickness) * x).exp()),
-        );
+        let ways =
+            Matrix2::diagonal(xi.map(|x| (Complex64::new(0.0, -angular * thickness) * x).exp()));
         let wall = (mirror() * motion).inverse() * motion.scale(-Complex64::ONE);
         let r = ways * wall * ways;
         let z = (traction + back * r) * (motion + mirror() * motion * r).inverse();
