@@ -12,7 +12,7 @@ use crate::store;
 use anechoic_reports::export::summary_json;
 use anechoic_reports::format;
 use anechoic_reports::judge::Tally;
-use anechoic_reports::row::Row;
+use anechoic_reports::row::{Row, Verdict};
 use anechoic_reports::table::{
     convergence_table, measurement_table, ranking_table, stability_table, sweep_table,
     tradeoff_table, verdict_table,
@@ -270,7 +270,16 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
     let mut text = String::new();
     for finished in studies {
         let tally = Tally::of(&finished.rows);
-        text += &verdict_table(&finished.rows);
+        // Of a map, claims that hold are no news.
+        let quiet = finished.study.stability.is_some();
+        let told = finished
+            .rows
+            .iter()
+            .filter(|row| !quiet || row.verdict != Some(Verdict::Pass));
+        let told: Vec<Row> = told.cloned().collect();
+        if told.iter().any(|row| row.verdict.is_some()) {
+            text += &verdict_table(&told);
+        }
         let _ = writeln!(
             text,
             "{} pass, {} fail, {} not evaluated\n",

@@ -19,6 +19,7 @@ const IN_PULSE: f64 = 20.0;
 
 const RATIOS: [f64; 7] = [0.0, 0.25, 0.4, 0.45, 0.49, 0.499, 0.4999];
 
+/// The true layer is refused with flip unless it is forced: here its growth is what is asked for.
 const TRANSFERS: [(&str, &[&str]); 5] = [
     (
         "frozen, keep",
@@ -33,8 +34,12 @@ const TRANSFERS: [(&str, &[&str]); 5] = [
         &["points.mode=moving", "points.transfer=affine"],
     ),
     (
-        "moving, flip",
-        &["points.mode=moving", "points.transfer=flip"],
+        "moving, flip (pml forced)",
+        &[
+            "points.mode=moving",
+            "points.transfer=flip",
+            "pml.with_flip=force",
+        ],
     ),
     (
         "moving, pic",
