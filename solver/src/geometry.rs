@@ -97,6 +97,22 @@ impl<const D: usize> Geometry<D> {
         owner
     }
 
+    /// Lower corner of a cell of the material (m), counted with the first axis fastest.
+    pub(crate) fn cell_corner(&self, cell: usize) -> Vector<D> {
+        let (counts, mut rest) = (self.material_cells_along(), cell);
+        std::array::from_fn(|a| {
+            let index = rest % counts[a];
+            rest /= counts[a];
+            self.material_box.lower[a] + self.grid.h[a] * index as f64
+        })
+    }
+
+    /// Its centre (m).
+    pub(crate) fn cell_centre(&self, cell: usize) -> Vector<D> {
+        let lower = self.cell_corner(cell);
+        std::array::from_fn(|a| lower[a] + 0.5 * self.grid.h[a])
+    }
+
     /// Cells of all material along each axis.
     pub(crate) fn material_cells_along(&self) -> [usize; D] {
         std::array::from_fn(|a| cells_along(&self.material_box, a, self.grid.h[a]))

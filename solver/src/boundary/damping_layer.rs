@@ -8,11 +8,11 @@
 //! 1 - beta in every step, which is the rate beta/dt. Where layers of two sides meet the larger rate
 //! holds.
 
-use super::params::{MethodInfo, Param, ParamKind, SideMethod};
+use super::params::{MethodInfo, Param, ParamKind, SideMethod, Upkeep};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::physics::kernel::{Lumped, NodeTerm};
-use crate::problem::{Problem, Side};
+use crate::problem::{Problem, Side, Transfer};
 
 /// The method's entry.
 pub static METHOD: MethodInfo = MethodInfo {
@@ -60,7 +60,16 @@ pub static METHOD: MethodInfo = MethodInfo {
             kind: ParamKind::Choice(&["fixed", "roller", "free"]),
         },
     ],
+    upkeep: upkeep,
 };
+
+fn upkeep(_: &SideMethod, _: Transfer) -> Upkeep {
+    Upkeep {
+        holds: "rate, damping",
+        node_vectors: 2,
+        ..Upkeep::default()
+    }
+}
 
 pub(crate) fn layout<const D: usize>(
     problem: &Problem<D>,

@@ -9,7 +9,7 @@
 //! be: the mass of one full cell times c/h; with the half-cell mass of the boundary nodes alone the
 //! impedance is halved. A wave that meets it head-on is reflected by (1 - a)/(1 + a).
 
-use super::params::{MethodInfo, Param, ParamKind, SideMethod};
+use super::params::{MethodInfo, Param, ParamKind, SideMethod, Upkeep};
 use super::surface::Surface;
 use super::{Context, End, Layout, Parts};
 use crate::basis::Discretisation;
@@ -33,6 +33,7 @@ pub static METHOD: MethodInfo = MethodInfo {
             max: 1e6,
         },
     }],
+    upkeep: Upkeep::none,
 };
 
 pub(crate) fn layout<const D: usize>(

@@ -1,6 +1,6 @@
 //! Free side: no traction.
 
-use super::params::{MethodInfo, SideMethod};
+use super::params::{MethodInfo, SideMethod, Upkeep};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::problem::{Problem, Side};
@@ -10,6 +10,7 @@ pub static METHOD: MethodInfo = MethodInfo {
     name: "free",
     summary: "no traction",
     params: &[],
+    upkeep: Upkeep::none,
 };
 
 pub(crate) fn layout<const D: usize>(

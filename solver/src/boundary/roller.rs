@@ -1,6 +1,6 @@
 //! Roller: the normal displacement is held.
 
-use super::params::{MethodInfo, SideMethod};
+use super::params::{MethodInfo, SideMethod, Upkeep};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::problem::{Problem, Side};
@@ -10,6 +10,7 @@ pub static METHOD: MethodInfo = MethodInfo {
     name: "roller",
     summary: "normal displacement held, tangential free",
     params: &[],
+    upkeep: Upkeep::none,
 };
 
 pub(crate) fn layout<const D: usize>(
