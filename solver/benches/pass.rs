@@ -125,6 +125,19 @@ fn of_points(
             }
         });
     });
+    group.bench_function("finite strain moduli", |b| {
+        cpu(b, || {
+            let start: [Matrix<2>; BLOCK] = [[[1e3, 0.0], [0.0, 1e3]]; BLOCK];
+            let mut moduli = [material.small_moduli(); BLOCK];
+            for block in blocks(all.clone()) {
+                let n = block.len();
+                disc.gradient(block, &field, &mut matrices[..n]);
+                matrices[..n].fill([[1e-6, 2e-6], [0.0, 1e-6]]);
+                material.finite_moduli(&matrices[..n], &start[..n], &mut moduli[..n]);
+                black_box(&moduli);
+            }
+        });
+    });
     let mut matrix = BlockMatrix::zeros(disc.pattern());
     let moduli = [material.small_moduli(); BLOCK];
     group.bench_function("tangent", |b| {

@@ -305,7 +305,7 @@ impl<const D: usize> Clerk<'_, D> {
     /// What it takes to move points: masses, nodes and stiffness anew in every step.
     fn moving(&self) -> Option<Item> {
         let price = &self.prices;
-        let anew = price.scatter + price.gather + price.find + price.tangent;
+        let anew = price.scatter + price.gather + price.find + price.moduli + price.tangent;
         self.is_moving().then(|| Item {
             points: self.counts.bulk,
             step_s: Self::time(self.counts.bulk, anew),
@@ -420,6 +420,10 @@ impl<const D: usize> Clerk<'_, D> {
                 4 + D,
                 ns,
             );
+        }
+        if let (Some(_), Some(energy)) = (probes.energy_every, items.last_mut()) {
+            // squares of the nodes' velocities
+            energy.bytes_per_node = Self::VECTOR;
         }
         items
     }

@@ -18,6 +18,8 @@ pub(super) struct Prices {
     pub small_force: f64,
     /// Gradient, finite-strain stress, force.
     pub finite_force: f64,
+    /// Gradient, finite-strain moduli.
+    pub moduli: f64,
     /// Stiffness of a point into the matrix.
     pub tangent: f64,
     /// Consistent mass of a point into the matrix.
@@ -37,6 +39,7 @@ const LINEAR: Prices = Prices {
     affine: 61.0,
     small_force: 32.0,
     finite_force: 86.0,
+    moduli: 185.0,
     tangent: 350.0,
     mass: 80.0,
     find: 104.0,
@@ -51,6 +54,7 @@ const WIDE: Prices = Prices {
     affine: 130.0,
     small_force: 54.0,
     finite_force: 107.0,
+    moduli: 190.0,
     tangent: 1520.0,
     mass: 650.0,
     find: 225.0,
