@@ -5,7 +5,10 @@ use crate::error::{Complaint, Origin};
 use crate::spec::{BoundarySpec, PointsSpec, ReceiverSpec};
 use anechoic_solver::boundary::{SideMethod, Value};
 use anechoic_solver::problem::{Aabb, PointMode, Transfer};
-use anechoic_solver::wavelet::Pulse;
+use anechoic_solver::wavelet::{Pulse, Wavelet};
+
+/// Steps that a pulse takes at least: fewer can fall on its zeros, and nothing would move.
+const LEAST_STEPS: f64 = 4.0;
 
 /// Collects what is wrong.
 #[derive(Debug)]
@@ -94,13 +97,42 @@ impl<'a> Checks<'a> {
         });
     }
 
-    /// A pulse that must be over before the run is.
-    pub fn pulse(&mut self, pulse: &Pulse, end_s: f64) {
-        self.require(pulse.end() <= end_s, "source.frequency_Hz", || {
+    /// A pulse that must be over before the run is, and that steps of `dt` (s) must see.
+    pub fn pulse(&mut self, pulse: &Pulse, dt: f64, end_s: f64) {
+        let lasting = match pulse.wavelet {
+            Wavelet::Ricker => "source.t0_s",
+            _ => "source.frequency_Hz",
+        };
+        let end = pulse.end();
+        // Blame what the user wrote, not what stood there before.
+        let short = self.by_user("time.end_s") && !self.by_user(lasting);
+        let field = if short { "time.end_s" } else { lasting };
+        self.require(end <= end_s, field, || match short {
+            true => format!(
+                "{end_s} s is shorter than the pulse, which lasts {end} s ({lasting}); allowed: value >= {end}"
+            ),
+            false => format!(
+                "the pulse lasts {end} s, longer than the run (time.end_s = {end_s} s)"
+            ),
+        });
+        let longest = end.min(1.0 / pulse.frequency) / LEAST_STEPS;
+        // where the step follows from the cells, these may be what was written
+        let fields = ["time.dt_s", "source.frequency_Hz", "grid.h_m"];
+        let field = fields.into_iter().find(|field| self.by_user(field));
+        let field = field.unwrap_or("time.dt_s");
+        self.require(dt <= longest, field, || {
             format!(
-                "the pulse lasts {} s, longer than the run (time.end_s = {end_s} s)",
-                pulse.end()
+                "steps of {dt} s do not see a pulse of {} Hz; allowed: time.dt_s <= {longest}",
+                pulse.frequency
             )
+        });
+    }
+
+    /// Cells (m) that must fit into the body, whose size is given (m).
+    pub fn cells(&mut self, h_m: f64, size: [f64; 2]) {
+        let least = size[0].min(size[1]);
+        self.require(h_m <= least, "grid.h_m", || {
+            format!("a cell of {h_m} m is larger than the body's {least} m")
         });
     }
 

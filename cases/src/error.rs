@@ -3,6 +3,7 @@
 use crate::atlas::AtlasError;
 use anechoic_solver::error::SolverError;
 use std::fmt;
+use std::io::ErrorKind;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -108,7 +109,7 @@ pub enum CaseError {
     #[error("{}: the file names no case; its first line should be `case = \"...\"`", .0.display())]
     NoCase(PathBuf),
     /// A file cannot be read.
-    #[error("{}: cannot be read: {source}", path.display())]
+    #[error("{}: cannot be read: {}", path.display(), in_words(.source))]
     Read {
         /// The file.
         path: PathBuf,
@@ -116,7 +117,7 @@ pub enum CaseError {
         source: std::io::Error,
     },
     /// The output folder cannot be written; found before anything is solved.
-    #[error("{}: cannot write there: {source}; choose another folder with --out", path.display())]
+    #[error("{}: cannot write there: {}; choose another folder with --out", path.display(), in_words(.source))]
     Output {
         /// The folder.
         path: PathBuf,
@@ -165,6 +166,9 @@ pub enum CaseError {
         /// Why.
         reason: String,
     },
+    /// A folder with runs that no study holds together.
+    #[error("{}: holds runs, but no study.json that says which belong together; the command that made them, with --resume, writes it again", .0.display())]
+    NoStudy(PathBuf),
     /// A folder without records.
     #[error("{}: holds no records; `anechoic compare CASE --out DIR` makes some", .0.display())]
     NoRecords(PathBuf),
@@ -200,6 +204,17 @@ pub enum CaseError {
     },
 }
 
+/// What the system says, without its numbers where a file and a folder are mixed up.
+fn in_words(error: &std::io::Error) -> String {
+    match error.kind() {
+        ErrorKind::IsADirectory => "it is a folder, and a file is needed".to_owned(),
+        ErrorKind::NotADirectory => "it is a file, and a folder is needed".to_owned(),
+        ErrorKind::AlreadyExists => "a file is in the way".to_owned(),
+        ErrorKind::NotFound => "there is no such file or folder".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
 impl CaseError {
     /// The exit code that this error stands for.
     pub fn exit_code(&self) -> u8 {
@@ -213,6 +228,7 @@ impl CaseError {
             | CaseError::Output { .. }
             | CaseError::BadRecord { .. }
             | CaseError::NoRecords(_)
+            | CaseError::NoStudy(_)
             | CaseError::Series { .. }
             | CaseError::Filter { .. }
             | CaseError::Usage(_)

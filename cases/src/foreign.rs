@@ -10,6 +10,9 @@ use std::path::{Path, PathBuf};
 /// Times may differ by this share of a step, which is rounding.
 const SAME_TIME: f64 = 1e-6;
 
+/// Larger numbers (m, m/s, s) overflow when they are squared and summed, and are no motion anyway.
+const LARGEST: f64 = 1e100;
+
 /// Displacements, and velocities where the file has them.
 const DISPLACEMENTS: [(&str, &str); 2] = [("ux", "m"), ("uy", "m")];
 const VELOCITIES: [(&str, &str); 2] = [("vx", "m/s"), ("vy", "m/s")];
@@ -97,6 +100,12 @@ impl Foreign {
                         format!("column {name}: `{text}` is not a finite number"),
                     )
                 })?;
+                if number.abs() > LARGEST {
+                    let message = format!(
+                        "column {name}: {number:e} is no motion; allowed: at most {LARGEST:e}"
+                    );
+                    return Err(wrong(line, message));
+                }
                 let is_time = name == TIME;
                 if let (true, Some(before)) = (is_time, values.last().filter(|t| **t >= number)) {
                     let message =
@@ -328,6 +337,10 @@ mod tests {
             &[":1:", "`A1_vx_m_s` is missing"],
         );
         refused(&format!("{HEAD}0,0,0,0,0\n"), &["two times"]);
+        refused(
+            &format!("{HEAD}0,0,0,0,0\n0.1,0,0,1e300,0\n"),
+            &[":3:", "1e300 is no motion", "at most 1e100"],
+        );
         refused(
             &format!("{HEAD}0,0,0,0,0\n1,0,NaN,0,0\n"),
             &[":3:", "A1_uy_m", "NaN"],

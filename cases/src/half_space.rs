@@ -76,7 +76,8 @@ impl HalfSpace {
         checks.layers(&self.boundary, self.target.size());
         checks.points(&self.points);
         checks.receivers(&self.receivers, &body);
-        self.source.check(checks, &body, self.time.end_s);
+        self.source.check(checks, &body, dt, self.time.end_s);
+        self.apart(checks);
         checks.step(dt, self.time.end_s);
         checks.require(self.t1_s < self.time.end_s, "t1_s", || {
             format!(
@@ -87,6 +88,20 @@ impl HalfSpace {
         checks.require(self.time.scheme == Scheme::Newmark, "time.scheme", || {
             "a pulse is lost without inertia; allowed: \"newmark\"".into()
         });
+    }
+
+    /// No receiver is at the force, where the displacement grows without limit as cells shrink.
+    fn apart(&self, checks: &mut Checks<'_>) {
+        for (index, receiver) in self.receivers.iter().enumerate() {
+            let place = [receiver.x_m, receiver.y_m];
+            let apart = place != [self.source.x_m, self.source.y_m];
+            checks.require(apart, &format!("receivers[{index}].x_m"), || {
+                format!(
+                    "receiver {} is at the force, where the displacement has no limit; move it away",
+                    receiver.name
+                )
+            });
+        }
     }
 
     /// Echoes are looked for at all receivers from `t1_s` to the end.
@@ -229,10 +244,10 @@ impl Source {
     }
 
     /// It must act inside the body, and be over before the run is.
-    pub fn check(&self, checks: &mut Checks<'_>, body: &Aabb<2>, end_s: f64) {
+    pub fn check(&self, checks: &mut Checks<'_>, body: &Aabb<2>, dt: f64, end_s: f64) {
         checks.inside("source.x_m", "the source", self.x_m, body, 0);
         checks.inside("source.y_m", "the source", self.y_m, body, 1);
-        checks.pulse(&self.pulse(), end_s);
+        checks.pulse(&self.pulse(), dt, end_s);
     }
 }
 

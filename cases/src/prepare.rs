@@ -69,7 +69,11 @@ impl Target {
     /// [`CaseError::Unknown`], [`CaseError::Read`], [`CaseError::Syntax`], [`CaseError::NoCase`].
     pub fn find(request: &Request) -> Result<Self, CaseError> {
         let path = Path::new(&request.target);
-        let is_file = path.extension().is_some_and(|e| e == "toml") || path.is_file();
+        // results of a case lie in folders named like it
+        let known = scenes::find(&request.target).is_ok();
+        let is_file = path.extension().is_some_and(|e| e == "toml")
+            || path.is_file()
+            || path.is_dir() && !known;
         let (info, header, file) = if is_file {
             let text = std::fs::read_to_string(path).map_err(|source| CaseError::Read {
                 path: path.to_owned(),
@@ -198,17 +202,18 @@ impl Target {
         if let (Some((name, _)), None) = (alike.next(), alike.next()) {
             return (*name).to_owned();
         }
+        // What all presets have in common belongs to the scene: the rest tells, rollers and free sides too.
+        let of_scene = |side: usize, method: &String| {
+            let mut presets = presets.iter().map(|(_, preset)| names(preset));
+            presets.all(|preset| preset[side] == *method)
+        };
         let mut telling: Vec<&str> = Vec::new();
-        for name in &wanted {
-            if !["free", "roller"].contains(&name.as_str()) && !telling.contains(&name.as_str()) {
-                telling.push(name);
+        for (side, method) in wanted.iter().enumerate() {
+            if !of_scene(side, method) && !telling.contains(&method.as_str()) {
+                telling.push(method);
             }
         }
-        if telling.is_empty() {
-            "free".to_owned()
-        } else {
-            telling.join("+")
-        }
+        telling.join("+")
     }
 }
 

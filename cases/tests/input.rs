@@ -275,6 +275,19 @@ fn several_methods_on_the_sides_are_joined_in_the_name() {
     assert_eq!(accepted(CASE, &sets, None).method, "extended+dashpot");
     let free = ["boundary.bottom.method=free"];
     assert_eq!(accepted(CASE, &free, None).method, "free");
+    let sides = ["boundary.left.method=free", "boundary.right.method=free"];
+    assert_eq!(accepted(CASE, &sides, None).method, "free+roller");
+    let mixed = |method: &str| {
+        let sets = [
+            "boundary.left.method=roller".to_owned(),
+            format!("boundary.right.method={method}"),
+            format!("boundary.bottom.method={method}"),
+        ];
+        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+        accepted("point-source", &sets, None).method
+    };
+    assert_eq!(mixed("pml-stretched"), "roller+pml-stretched");
+    assert_eq!(mixed("free"), "roller+free");
 }
 
 #[test]

@@ -7,6 +7,7 @@ use crate::row::{Row, Verdict};
 use crate::stability::{self, Stability};
 use crate::sweep::{self, Sweep};
 use crate::tradeoff::{ADVICE, TRADES, Tradeoff, advice_cells, trade_cells};
+use anechoic_solver::Bill;
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
 
 /// The claims among `rows` with their verdicts; failures say why the bound is what it is.
@@ -105,6 +106,40 @@ pub fn ranking_cells(ranking: &Ranking, method: &Ranked) -> [String; 7] {
         text(method.unknowns, |v| format::count(v as usize)),
         text(method.peak_bytes, format::bytes),
     ]
+}
+
+/// What each feature of a scene costs, known before it is solved.
+pub fn bill_table(bill: &Bill) -> String {
+    let mut table = new_table(&[
+        "feature",
+        "keeps",
+        "points",
+        "B each",
+        "B a node",
+        "records",
+        "ms a step",
+    ]);
+    align_right(&mut table, &[2, 3, 4, 5, 6]);
+    let dash = |shown: bool, text: String| if shown { text } else { "–".to_owned() };
+    for item in &bill.items {
+        let has_points = item.points > 0;
+        table.add_row([
+            item.feature.clone(),
+            item.holds.clone(),
+            dash(has_points, format::count(item.points)),
+            dash(
+                item.bytes_per_point > 0 && has_points,
+                item.bytes_per_point.to_string(),
+            ),
+            dash(item.bytes_per_node > 0, item.bytes_per_node.to_string()),
+            dash(
+                item.record_bytes > 0,
+                format::bytes(item.record_bytes as f64),
+            ),
+            dash(item.step_s > 0.0, format::number(1e3 * item.step_s)),
+        ]);
+    }
+    finish(&table, "")
 }
 
 /// Errors on all levels with the orders they fall with.

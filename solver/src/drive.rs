@@ -97,7 +97,7 @@ impl<const D: usize> PointForce<D> {
 
 impl<const D: usize> NodeTerm<D> for PointForce<D> {
     fn attach(&mut self, disc: &dyn Discretisation<D>) -> Result<(), Vector<D>> {
-        self.sample = disc.sample(&self.place);
+        disc.sample_into(&self.place, &mut self.sample);
         if self.sample.nodes.is_empty() {
             Err(self.place)
         } else {

@@ -51,7 +51,7 @@ impl<const D: usize> Geometry<D> {
                 });
             }
         }
-        check_size(problem, &material_box, &h)?;
+        check_size(problem, &material_box, &h, &assigned)?;
         check_corners(&assigned)?;
         check_width(problem, &material_box, &h)?;
         let grid = Grid {
@@ -97,6 +97,22 @@ impl<const D: usize> Geometry<D> {
         owner
     }
 
+    /// Lower corner of a cell of the material (m), counted with the first axis fastest.
+    pub(crate) fn cell_corner(&self, cell: usize) -> Vector<D> {
+        let (counts, mut rest) = (self.material_cells_along(), cell);
+        std::array::from_fn(|a| {
+            let index = rest % counts[a];
+            rest /= counts[a];
+            self.material_box.lower[a] + self.grid.h[a] * index as f64
+        })
+    }
+
+    /// Its centre (m).
+    pub(crate) fn cell_centre(&self, cell: usize) -> Vector<D> {
+        let lower = self.cell_corner(cell);
+        std::array::from_fn(|a| lower[a] + 0.5 * self.grid.h[a])
+    }
+
     /// Cells of all material along each axis.
     pub(crate) fn material_cells_along(&self) -> [usize; D] {
         std::array::from_fn(|a| cells_along(&self.material_box, a, self.grid.h[a]))
@@ -138,11 +154,29 @@ fn check_size<const D: usize>(
     problem: &Problem<D>,
     material: &Aabb<D>,
     h: &Vector<D>,
+    assigned: &[Assigned],
 ) -> Result<(), SolverError> {
-    let cells: f64 = (0..D)
-        .map(|a| (material.upper[a] - material.lower[a]) / h[a])
-        .product();
-    let points = cells * problem.points_per_cell as f64;
+    let points_of = |region: &Aabb<D>| -> f64 {
+        let cells = |a: usize| (region.upper[a] - region.lower[a]) / h[a];
+        (0..D).map(cells).product::<f64>() * problem.points_per_cell as f64
+    };
+    let points = points_of(material);
+    let thickest = assigned
+        .iter()
+        .max_by(|a, b| a.layout.outside.total_cmp(&b.layout.outside));
+    if let Some(a) = thickest
+        && points > MOST_POINTS
+        && points_of(&problem.target) <= MOST_POINTS
+    {
+        let reason = format!(
+            "a layer of {} m makes {points:.1e} points of cells of {} m, more than {MOST_POINTS:.0e}",
+            a.layout.outside, problem.cell_size
+        );
+        return Err(setup_error(
+            format!("boundary.{}.thickness_m", a.side.name()),
+            reason,
+        ));
+    }
     if points.is_nan() || points > MOST_POINTS {
         let reason = format!(
             "cells of {} m make {points:.1e} points of body and layers, more than {MOST_POINTS:.0e}",

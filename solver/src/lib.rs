@@ -11,8 +11,10 @@
 //! | [`physics`] | region kernels, terms on nodes, the model that joins them |
 //! | [`time`], [`linear`] | integrators, Newton, sparse solvers |
 //! | [`record`], [`error`] | what comes out |
+//! | [`Bill`] | what it will cost |
 
 pub mod basis;
+mod bill;
 pub mod boundary;
 mod drive;
 pub mod error;
@@ -32,6 +34,7 @@ pub mod tensor;
 pub mod time;
 pub mod wavelet;
 
+pub use bill::{Bill, Item};
 use error::SolverError;
 use problem::{Aabb, Problem};
 use record::Record;
@@ -49,25 +52,6 @@ pub struct Outcome {
     pub record: Record,
     /// The failure, if any.
     pub error: Option<SolverError>,
-}
-
-/// What a problem uses and what that costs, known before it is solved.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Bill {
-    /// Features in use: basis, scheme, transfer, boundary methods.
-    pub features: Vec<String>,
-    /// Material points.
-    pub points: usize,
-    /// Nodes of the background grid.
-    pub nodes: usize,
-    /// Unknowns of the linear system.
-    pub unknowns: usize,
-    /// Time steps.
-    pub steps: usize,
-    /// Memory of a point in bytes.
-    pub bytes_per_point: usize,
-    /// Memory of a node in bytes, without the factor of a direct solver.
-    pub bytes_per_node: usize,
 }
 
 /// Solves a problem.
@@ -96,7 +80,7 @@ pub fn run_model<const D: usize>(
 /// # Errors
 /// [`SolverError::Setup`] as for [`solve`].
 pub fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverError> {
-    setup::bill(problem)
+    bill::bill(problem)
 }
 
 /// The box (m) of all material of a problem: the body and what its sides' methods add to it.

@@ -65,17 +65,8 @@ impl<const D: usize> Points<D> {
         });
     }
 
-    /// Memory of one point in bytes, state of kernels and stencils aside.
-    pub fn bytes_per_point(&self) -> usize {
-        let vector = size_of::<Vector<D>>();
-        let base = vector + 2 * size_of::<f64>();
-        base + self.motion.as_ref().map_or(0, |m| {
-            2 * vector
-                + m.gradients
-                    .as_ref()
-                    .map_or(0, |_| 2 * size_of::<Matrix<D>>())
-        })
-    }
+    /// Place, volume and mass of a point in bytes.
+    pub(crate) const BYTES: usize = size_of::<Vector<D>>() + 2 * size_of::<f64>();
 
     /// Fills a cell with `per_axis`^D points at the centres of its equal parts.
     pub fn fill_cell(&mut self, lower: &Vector<D>, h: &Vector<D>, per_axis: usize, density: f64) {

@@ -30,6 +30,8 @@ impl<const D: usize> Sampler<D> {
     /// Prepares `record` for the problem's probes.
     pub(crate) fn new(problem: &Problem<D>, model: &Model<D>, record: &mut Record) -> Self {
         let probes = &problem.probes;
+        let samples = room(problem.steps());
+        record.receivers.times.reserve(samples);
         let tracers = probes.receivers.iter().map(|r| Tracer {
             place: r.place,
             displacement: [0.0; D],
@@ -42,16 +44,24 @@ impl<const D: usize> Sampler<D> {
                         &mut record.receivers,
                         format!("{}_{quantity}{axis}", receiver.name),
                         unit,
+                        samples,
                     );
                 }
             }
         }
-        if probes.energy_every.is_some() {
+        if let Some(every) = probes.energy_every {
+            let samples = room(problem.steps() / every);
+            record.energy.times.reserve(samples);
             for name in ["kinetic", "strain", "total"] {
-                push(&mut record.energy, name.to_owned(), "J");
+                push(&mut record.energy, name.to_owned(), "J", samples);
             }
             for axis in &AXES[..D] {
-                push(&mut record.energy, format!("momentum_{axis}"), "kg m/s");
+                push(
+                    &mut record.energy,
+                    format!("momentum_{axis}"),
+                    "kg m/s",
+                    samples,
+                );
             }
         }
         let lines = probes.lines.iter().map(|line| {
@@ -69,8 +79,8 @@ impl<const D: usize> Sampler<D> {
                 unit: "m/s".to_owned(),
                 positions: (0..line.samples).map(|k| place(k)[axis]).collect(),
                 axis: AXES[axis].to_owned(),
-                times: Vec::new(),
-                values: Vec::new(),
+                times: Vec::with_capacity(room(problem.steps() / line.every)),
+                values: Vec::with_capacity(line.samples * room(problem.steps() / line.every)),
             });
             (0..line.samples)
                 .map(|k| model.disc.sample(&place(k)))
@@ -165,7 +175,7 @@ impl<const D: usize> Sampler<D> {
                 columns[D + i].values.push(velocity[i]);
             }
             if moving {
-                tracer.sample = model.disc.sample(&tracer.place);
+                model.disc.sample_into(&tracer.place, &mut tracer.sample);
             }
         }
     }
@@ -199,18 +209,26 @@ impl<const D: usize> Sampler<D> {
     }
 }
 
-fn push(table: &mut SeriesTable, name: String, unit: &str) {
+/// More samples than this get their room as they come: not all long runs end.
+const MOST_ROOM: usize = 1 << 16;
+
+/// Room for the samples after so many steps and that of the start.
+fn room(steps: usize) -> usize {
+    (steps + 1).min(MOST_ROOM)
+}
+
+fn push(table: &mut SeriesTable, name: String, unit: &str, samples: usize) {
     table.columns.push(Column {
         name,
         unit: unit.to_owned(),
-        values: Vec::new(),
+        values: Vec::with_capacity(samples),
     });
 }
 
 fn energy<const D: usize>(model: &Model<D>, t: f64, out: &mut SeriesTable) {
     let total = model.kinetic_energy(false) + model.strain_energy(false);
-    let mut values = vec![model.kinetic_energy(true), model.strain_energy(true), total];
-    values.extend(model.momentum());
+    let energies = [model.kinetic_energy(true), model.strain_energy(true), total];
+    let values = energies.into_iter().chain(model.momentum());
     out.times.push(t);
     for (column, value) in out.columns.iter_mut().zip(values) {
         column.values.push(value);

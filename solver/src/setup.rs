@@ -1,12 +1,10 @@
 //! From a problem to a model: points, regions, terms.
 
-use crate::Bill;
 use crate::basis::on_grid;
-use crate::boundary::{self, Assigned, Context, DisplacementTransfer, LayerPoints, Layout};
+use crate::boundary::{self, Assigned, Context, DisplacementTransfer, LayerPoints};
 use crate::drive::{PointForce, SideDrive};
 use crate::error::SolverError;
 use crate::geometry::{Geometry, Owner};
-use crate::grid::Grid;
 use crate::linear::LinearSolver;
 use crate::material::MaterialBlock;
 use crate::material::linear_elastic::LinearElastic;
@@ -140,20 +138,14 @@ fn fill<const D: usize>(
         owners.extend(names.map(|name| Owner::Layer(name, layer)));
     }
     let h = geometry.grid.h;
-    let counts = geometry.material_cells_along();
+    let cells = geometry.material_cells_along().iter().product();
     let mut points = Points::default();
     let mut ranges = Vec::new();
     for wanted in owners {
         let start = points.len();
-        for cell in 0..counts.iter().product() {
-            let mut rest = cell;
-            let lower: Vector<D> = std::array::from_fn(|a| {
-                let index = rest % counts[a];
-                rest /= counts[a];
-                geometry.material_box.lower[a] + h[a] * index as f64
-            });
-            let centre: Vector<D> = std::array::from_fn(|a| lower[a] + 0.5 * h[a]);
-            if geometry.owner(&problem.target, &centre) == wanted {
+        for cell in 0..cells {
+            if geometry.owner(&problem.target, &geometry.cell_centre(cell)) == wanted {
+                let lower = geometry.cell_corner(cell);
                 points.fill_cell(&lower, &h, geometry.per_axis, problem.material.density);
             }
         }
@@ -212,56 +204,4 @@ fn drives<const D: usize>(
         }
     };
     problem.drives.iter().map(term).collect()
-}
-
-/// The bill, from the geometry alone.
-pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverError> {
-    let geometry = Geometry::new(problem)?;
-    let nodes = geometry.grid.node_count();
-    let mut sample = Points::<D>::default();
-    sample.fill_cell(&[0.0; D], &[1.0; D], 1, 1.0);
-    if problem.transfer != Transfer::Keep {
-        sample.carry_motion(1, problem.transfer == Transfer::Affine);
-    }
-    let stress = if problem.transfer == Transfer::Keep {
-        0
-    } else {
-        2 * size_of::<[[f64; D]; D]>()
-    };
-    let few_cells = Grid {
-        cells: [2; D],
-        ..geometry.grid.clone()
-    };
-    let disc = on_grid(problem.basis, &few_cells, geometry.per_axis);
-    let layers = |l: &Layout| l.outside + l.inside;
-    let methods = geometry.assigned.iter().map(|a| match layers(&a.layout) {
-        0.0 => format!("{}: {}", a.side.name(), a.method.method),
-        t => format!("{}: {} of {t} m", a.side.name(), a.method.method),
-    });
-    let scheme = format!(
-        "{:?}, {:?} points, transfer {:?}",
-        problem.scheme, problem.point_mode, problem.transfer
-    );
-    let cell = geometry.grid.h.map(|h| format!("{h:.6}")).join(" x ");
-    let basis = format!("{} basis on cells of {cell} m", disc.name());
-    let mut features = vec![basis, scheme.to_lowercase()];
-    if problem.mass == MassKind::Consistent {
-        features.push("consistent masses".to_owned());
-    }
-    features.extend(methods);
-    let matrices = if problem.transfer == Transfer::Keep {
-        2
-    } else {
-        1
-    };
-    let block = size_of::<[[f64; D]; D]>() * matrices + size_of::<u32>();
-    Ok(Bill {
-        features,
-        points: geometry.material_cells_along().iter().product::<usize>() * problem.points_per_cell,
-        nodes,
-        unknowns: nodes * D,
-        steps: problem.steps(),
-        bytes_per_point: sample.bytes_per_point() + stress + disc.bytes_per_point(),
-        bytes_per_node: disc.couplings() * block + 16 * size_of::<Vector<D>>(),
-    })
 }

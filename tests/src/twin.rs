@@ -221,8 +221,4 @@ impl RegionKernel<2> for Twin {
         };
         self.range.clone().enumerate().map(energy).sum()
     }
-
-    fn bytes_per_point(&self) -> usize {
-        0
-    }
 }

@@ -52,7 +52,7 @@ fn growth(from: &Problem<2>, to: &Problem<2>) -> [f64; 2] {
     let measured = |problem| allocations(problem).bytes_max as f64;
     let billed = |problem| {
         let bill = anechoic_solver::bill(problem).expect("the problem is well put");
-        (bill.points * bill.bytes_per_point + bill.nodes * bill.bytes_per_node) as f64
+        bill.bytes() as f64
     };
     [measured(to) - measured(from), billed(to) - billed(from)]
 }

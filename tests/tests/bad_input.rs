@@ -80,6 +80,19 @@ fn values_out_of_range_come_with_what_is_allowed() {
         ("time.dt_s=-0.01", &["value > 0"]),
         ("time.dt_s=6", &["longer than the run"]),
         ("time.end_s=nan", &["value > 0"]),
+        (
+            "time.end_s=0.1",
+            &["time.end_s: 0.1 s", "lasts 0.5 s", "value >= 0.5"],
+        ),
+        ("time.dt_s=0.5", &["time.dt_s: ", "time.dt_s <= 0.125"]),
+        (
+            "source.frequency_Hz=90",
+            &["source.frequency_Hz: ", "do not see"],
+        ),
+        (
+            "boundary.bottom={method=\"pml\",thickness_m=1e9}",
+            &["boundary.bottom.thickness_m", "1000000000 m"],
+        ),
         ("time.scheme=quasi-static", &["newmark"]),
         (
             "receivers.A.y_m=51",
@@ -92,6 +105,17 @@ fn values_out_of_range_come_with_what_is_allowed() {
     ] {
         refused(&["run", CASE, "--set", set], &[&[set], words].concat());
     }
+    refused(
+        &[
+            "run",
+            "point-source",
+            "--set",
+            "source.x_m=1525",
+            "--set",
+            "source.y_m=-65",
+        ],
+        &["receivers[0].x_m", "A1 is at the force"],
+    );
     refused(
         &[
             "run",
@@ -141,6 +165,21 @@ fn a_file_is_named_with_its_line() {
     refused(&["run", "absent.toml"], &["absent.toml", "cannot be read"]);
     refused(&["report", "absent"], &["absent"]);
     refused(&["report", "."], &["holds no records", "anechoic compare"]);
+    let folder = folder();
+    std::fs::create_dir(folder.path().join("folder")).expect("a folder");
+    std::fs::write(folder.path().join("file.txt"), "text").expect("a file");
+    let place = folder.path();
+    refused_in(place, &["run", "./folder"], &["folder", "a file is needed"]);
+    refused_in(
+        place,
+        &["report", "file.txt"],
+        &["file.txt", "a folder is needed"],
+    );
+    refused_in(
+        place,
+        &["diff", "file.txt", "file.txt"],
+        &["file.txt", "summary.json"],
+    );
 }
 
 #[test]

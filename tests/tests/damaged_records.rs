@@ -162,6 +162,18 @@ fn a_scene_or_a_number_changed_by_hand() {
 }
 
 #[test]
+fn runs_without_their_study_are_told_from_no_runs() {
+    let studied = Studied::new();
+    let study = studied.results().join(CASE).join("study.json");
+    std::fs::remove_file(study).expect("the study's file");
+    let output = anechoic(studied.folder.path(), &["report", "results"]);
+    assert_eq!(output.code, 2, "{}", output.err);
+    for word in [CASE, "no study.json", "--resume"] {
+        assert!(output.err.contains(word), "{word}: {}", output.err);
+    }
+}
+
+#[test]
 fn without_the_standard_run_ratios_are_missing_and_the_rest_stands() {
     let studied = Studied::new();
     std::fs::remove_file(studied.run("fixed").join("receivers.csv")).expect("it was there");

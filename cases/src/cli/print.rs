@@ -14,24 +14,16 @@ use anechoic_reports::format;
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_reports::table::{
-    convergence_table, measurement_table, ranking_table, stability_table, sweep_table,
+    bill_table, convergence_table, measurement_table, ranking_table, stability_table, sweep_table,
     tradeoff_table, verdict_table,
 };
-use anechoic_solver::Bill;
 use anechoic_solver::boundary::METHODS;
-use anechoic_solver::problem::{PointMode, Problem, Transfer};
+use anechoic_solver::problem::Problem;
 use anechoic_solver::record::Status;
+use anechoic_solver::{Bill, Item};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::Write as _;
-
-/// Time of a point-step (us) where nodes keep their motion, with layers and pictures, as measured on
-/// one core of a server of 2023.
-const FROZEN_US: f64 = 0.11;
-/// The same where points that rest carry the motion.
-const CARRIED_US: f64 = 0.3;
-/// The same where points move.
-const MOVING_US: f64 = 0.6;
 
 /// Prints to stdout; a reader that has gone away is no error.
 pub fn out(text: &str) {
@@ -124,8 +116,11 @@ pub fn show(prepared: &Prepared, format: Format) -> Result<String, CaseError> {
                 "nodes": bill.nodes,
                 "unknowns": bill.unknowns,
                 "steps": bill.steps,
-                "bytes_per_point": bill.bytes_per_point,
-                "bytes_per_node": bill.bytes_per_node,
+                "bytes_per_point": bill.point_bytes() / bill.points,
+                "bytes_per_node": bill.bytes_per_node(),
+                "bytes": bill.bytes(),
+                "seconds": bill.seconds(),
+                "items": bill.items.iter().map(item_json).collect::<Vec<_>>(),
             },
         }));
     }
@@ -167,22 +162,7 @@ pub fn show(prepared: &Prepared, format: Format) -> Result<String, CaseError> {
             window.from_s
         );
     }
-    let _ = write!(
-        text,
-        "\nBill\n  features   {}\n  points     {}, {} each\n  nodes      {}, {} each\n  unknowns   {}\n  steps      {}\n",
-        bill.features.join(", "),
-        format::count(bill.points),
-        format::bytes(bill.bytes_per_point as f64),
-        format::count(bill.nodes),
-        format::bytes(bill.bytes_per_node as f64),
-        format::count(bill.unknowns),
-        format::count(bill.steps),
-    );
-    let _ = writeln!(
-        text,
-        "  time       {}",
-        estimate(&prepared.scene.problem(), bill)
-    );
+    text += &bill_text(bill);
     if let Some(problem) = prepared.scene.extended() {
         let _ = writeln!(
             text,
@@ -193,15 +173,39 @@ pub fn show(prepared: &Prepared, format: Format) -> Result<String, CaseError> {
     Ok(text)
 }
 
+/// The bill, feature by feature.
+fn bill_text(bill: &Bill) -> String {
+    let mut text = format!(
+        "\nBill\n  features   {}\n  points     {}\n  nodes      {}\n  unknowns   {}\n  steps      {}\n  memory     {}, without the factor of a direct solver\n  time       {}\n\n",
+        bill.features.join(", "),
+        format::count(bill.points),
+        format::count(bill.nodes),
+        format::count(bill.unknowns),
+        format::count(bill.steps),
+        format::bytes(bill.bytes() as f64),
+        estimate(bill),
+    );
+    text += &bill_table(bill);
+    text
+}
+
+fn item_json(item: &Item) -> Value {
+    json!({
+        "feature": item.feature,
+        "holds": item.holds,
+        "points": item.points,
+        "bytes_per_point": item.bytes_per_point,
+        "bytes_per_node": item.bytes_per_node,
+        "record_bytes": item.record_bytes,
+        "step_s": item.step_s,
+    })
+}
+
 /// About how long a run takes.
-fn estimate(problem: &Problem<2>, bill: &Bill) -> String {
-    let us = match (problem.point_mode, problem.transfer) {
-        (PointMode::Frozen, Transfer::Keep) => FROZEN_US,
-        (PointMode::Frozen, _) => CARRIED_US,
-        (PointMode::Moving, _) => MOVING_US,
-    };
-    let seconds = 1e-6 * us * bill.points as f64 * bill.steps as f64;
-    format!("about {seconds:.0} s ({us} us a point-step on one core)")
+fn estimate(bill: &Bill) -> String {
+    let seconds = bill.seconds();
+    let digits = if seconds < 10.0 { 1 } else { 0 };
+    format!("about {seconds:.digits$} s of one core")
 }
 
 /// Whether a certified reference is at hand, and what it takes otherwise.
@@ -217,7 +221,7 @@ fn reference(case: &str, problem: &Problem<2>) -> Result<String, CaseError> {
             format!(
                 "certified; does not come with the program: the first comparison computes it, {} unknowns, {}",
                 format::count(bill.unknowns),
-                estimate(&extended, &bill)
+                estimate(&bill)
             )
         }
     })

@@ -54,6 +54,12 @@ pub fn compare_rows(before: &Path, after: &Path, rel_tol: f64) -> Result<Diff, C
 fn read(path: &Path) -> Result<(Holds, Vec<Filed>), CaseError> {
     let file = |name: &str| Some(path.join(name)).filter(|file| file.is_file());
     if path.is_file() {
+        if path.extension().is_none_or(|ending| ending != "json") {
+            return Err(CaseError::Usage(format!(
+                "{}: not a file of rows; {SUMMARY} of a study or {METRICS} of a run is, or its folder",
+                path.display()
+            )));
+        }
         return Ok((Holds::Study, rows(path, "")?));
     }
     if let Some(summary) = file(SUMMARY) {

@@ -147,10 +147,11 @@ impl Scene for Compression1d {
 
     fn check(&self, checks: &mut Checks<'_>) {
         let size = self.body.size();
+        checks.cells(self.grid.h_m, size);
         checks.layers(&self.boundary, size);
         checks.points(&self.points);
         checks.receivers(&self.receivers, &self.body.target());
-        checks.pulse(&self.pulse(), self.time.end_s);
+        checks.pulse(&self.pulse(), self.dt(), self.time.end_s);
         checks.step(self.dt(), self.time.end_s);
         checks.require(self.time.scheme == Scheme::Newmark, "time.scheme", || {
             "a pulse is lost without inertia; allowed: \"newmark\"".into()

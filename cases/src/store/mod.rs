@@ -83,6 +83,9 @@ impl Manifest {
     }
 }
 
+/// Name of the file that makes a folder that of a run.
+pub const MANIFEST: &str = "manifest.json";
+
 /// Prefix of folders in which a run is being written; nothing reads them.
 const UNFINISHED: &str = ".unfinished-";
 
@@ -173,7 +176,7 @@ impl Store {
         let scene = scene_text::write(&run.prepared).into_bytes();
         let mut files = vec![
             ("scene.toml", scene),
-            ("manifest.json", json(&run.manifest)?),
+            (MANIFEST, json(&run.manifest)?),
             ("receivers.csv", table::write(&record.receivers)?),
             ("energy.csv", table::write(&record.energy)?),
             ("record.json", compact_json(&fields)?),
@@ -211,7 +214,7 @@ pub fn load(folder: &Path) -> Result<Run, CaseError> {
             reason: "the run's folder is missing".into(),
         });
     }
-    let manifest: Manifest = read_json(&folder.join("manifest.json"))?;
+    let manifest: Manifest = read_json(&folder.join(MANIFEST))?;
     let fields: Fields = read_json(&folder.join("record.json"))?;
     let scene = folder.join("scene.toml");
     let mut prepared = Target::find(&Request {

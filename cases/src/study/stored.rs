@@ -3,7 +3,7 @@
 use super::Kind;
 use crate::error::CaseError;
 use crate::runner::Run;
-use crate::store::{json, load, read_json, write_file};
+use crate::store::{MANIFEST, json, load, read_json, write_file};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -102,9 +102,28 @@ pub fn find_studies(folder: &Path) -> Result<Found, CaseError> {
         }
     }
     if found.studies.is_empty() && found.unreadable.is_empty() {
-        return Err(CaseError::NoRecords(folder.to_owned()));
+        // CASE/METHOD/HASH
+        return Err(match holds_run(folder, 3) {
+            Some(study) => CaseError::NoStudy(study),
+            None => CaseError::NoRecords(folder.to_owned()),
+        });
     }
     Ok(found)
+}
+
+/// The first folder of a run at most so many levels below `folder`, as the folder of its study.
+fn holds_run(folder: &Path, levels: usize) -> Option<PathBuf> {
+    if folder.join(MANIFEST).is_file() {
+        return Some(folder.ancestors().nth(2).unwrap_or(folder).to_owned());
+    }
+    let mut below: Vec<PathBuf> = std::fs::read_dir(folder)
+        .ok()?
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
+    below.sort();
+    let levels = levels.checked_sub(1)?;
+    below.iter().find_map(|folder| holds_run(folder, levels))
 }
 
 /// The study of a folder with the runs that can be read.

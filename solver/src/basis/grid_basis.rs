@@ -10,6 +10,9 @@ use crate::tensor::{Matrix, Tensor4, Vector, dot};
 use std::ops::Range;
 use std::sync::Arc;
 
+/// Nodes that a point sees at most: three along each of three axes.
+const MOST_NODES: usize = 27;
+
 /// Keeps nodes, values and gradients of all points, `width` a point.
 #[derive(Debug)]
 pub struct GridDiscretisation<B, const D: usize> {
@@ -122,27 +125,20 @@ impl<B: Basis, const D: usize> Discretisation<D> for GridDiscretisation<B, D> {
         Ok(())
     }
 
-    fn sample(&self, x: &Vector<D>) -> Sample {
+    fn sample_into(&self, x: &Vector<D>, out: &mut Sample) {
         let w = Self::NODES;
-        let mut sample = Sample {
-            nodes: vec![0; w],
-            weights: vec![0.0; w],
-        };
-        let mut gradients = vec![[0.0; D]; w];
+        out.nodes.resize(w, 0);
+        out.weights.resize(w, 0.0);
+        let mut gradients = [[0.0; D]; MOST_NODES];
+        let gradients = &mut gradients[..w];
         let along = |s, cells| self.basis.place(s, cells);
-        let stencil = (
-            sample.nodes.as_mut_slice(),
-            sample.weights.as_mut_slice(),
-            gradients.as_mut_slice(),
-        );
+        let stencil = (&mut out.nodes[..], &mut out.weights[..], &mut *gradients);
         if !evaluate(&self.grid, B::WIDTH, along, x, stencil) {
-            return Sample::default();
+            out.nodes.clear();
+            out.weights.clear();
+        } else if B::WIDTH == 3 {
+            self.faint.unburden(&out.nodes, &mut out.weights, gradients);
         }
-        if B::WIDTH == 3 {
-            let weights = &mut sample.weights;
-            self.faint.unburden(&sample.nodes, weights, &mut gradients);
-        }
-        sample
     }
 
     fn scatter_scalar(&self, block: Range<usize>, values: &[f64], out: &mut [f64]) {

@@ -82,7 +82,14 @@ pub trait Discretisation<const D: usize>: Send {
     fn replace(&mut self, places: &[Vector<D>]) -> Result<(), usize>;
 
     /// Nodes and weights at `x`; empty outside.
-    fn sample(&self, x: &Vector<D>) -> Sample;
+    fn sample(&self, x: &Vector<D>) -> Sample {
+        let mut sample = Sample::default();
+        self.sample_into(x, &mut sample);
+        sample
+    }
+
+    /// The same, in place of what `out` holds.
+    fn sample_into(&self, x: &Vector<D>, out: &mut Sample);
 
     /// Adds `w_p N_I` to the nodes: lumped masses from the points' masses.
     fn scatter_scalar(&self, block: Range<usize>, values: &[f64], out: &mut [f64]);

@@ -8,11 +8,11 @@
 //! 1 - beta in every step, which is the rate beta/dt. Where layers of two sides meet the larger rate
 //! holds.
 
-use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::physics::kernel::{Lumped, NodeTerm};
-use crate::problem::{Problem, Side};
+use crate::problem::{Problem, Side, Transfer};
 
 /// The method's entry.
 pub static METHOD: MethodInfo = MethodInfo {
@@ -81,7 +81,16 @@ pub static METHOD: MethodInfo = MethodInfo {
         },
     ],
     passive: true,
+    upkeep: upkeep,
 };
+
+fn upkeep(_: &SideMethod, _: Transfer) -> Upkeep {
+    Upkeep {
+        holds: "rate, damping",
+        node_vectors: 2,
+        ..Upkeep::default()
+    }
+}
 
 pub(crate) fn layout<const D: usize>(
     problem: &Problem<D>,

@@ -9,7 +9,7 @@
 //! be: the mass of one full cell times c/h; with the half-cell mass of the boundary nodes alone the
 //! impedance is halved. A wave that meets it head-on is reflected by (1 - a)/(1 + a).
 
-use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
 use super::surface::Surface;
 use super::{Context, End, Layout, Parts};
 use crate::basis::Discretisation;
@@ -39,6 +39,7 @@ pub static METHOD: MethodInfo = MethodInfo {
         rungs: Rungs::Numbers(&[0.0, 1e3, 1e6]),
     }],
     passive: true,
+    upkeep: Upkeep::none,
 };
 
 pub(crate) fn layout<const D: usize>(

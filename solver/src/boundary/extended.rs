@@ -3,7 +3,7 @@
 //! Not an absorber but the honest competitor, and what certifies itself: the fastest wave from any
 //! place of the body to the outer end and back needs at least `2 thickness / c_p`.
 
-use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::problem::{Problem, Side};
@@ -28,6 +28,7 @@ pub static METHOD: MethodInfo = MethodInfo {
     }],
     extremes: &[],
     passive: true,
+    upkeep: Upkeep::none,
 };
 
 /// Implicit schemes spread a little of everything a few cells ahead of the wave.

@@ -1,6 +1,6 @@
 //! Free side: no traction.
 
-use super::params::{MethodInfo, SideMethod};
+use super::params::{MethodInfo, SideMethod, Upkeep};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::problem::{Problem, Side};
@@ -13,6 +13,7 @@ pub static METHOD: MethodInfo = MethodInfo {
     ladder: &[],
     extremes: &[],
     passive: true,
+    upkeep: Upkeep::none,
 };
 
 pub(crate) fn layout<const D: usize>(

@@ -1,5 +1,6 @@
 //! What a boundary method says of itself, and how a side names a method with its parameters.
 
+use crate::problem::Transfer;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -142,6 +143,32 @@ pub struct MethodInfo {
     pub extremes: &'static [Ladder],
     /// Can it only take energy away, whatever the motion and its parameters?
     pub passive: bool,
+    /// What it costs on a side, for the bill.
+    pub upkeep: fn(&SideMethod, Transfer) -> Upkeep,
+}
+
+/// What a method on a side adds to a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Upkeep {
+    /// What it keeps, in words.
+    pub holds: &'static str,
+    /// Vectors on each point of its own layer.
+    pub point_vectors: usize,
+    /// Matrices on each of them.
+    pub point_matrices: usize,
+    /// Vectors on each node.
+    pub node_vectors: usize,
+    /// Work on each point of its own layer in a step, over that of a small-strain force.
+    pub forces: f64,
+    /// Passes of a vector between all points and nodes in a step.
+    pub passes: f64,
+}
+
+impl Upkeep {
+    /// That of a method that only holds or frees nodes.
+    pub fn none(_: &SideMethod, _: Transfer) -> Self {
+        Upkeep::default()
+    }
 }
 
 impl MethodInfo {

@@ -14,7 +14,7 @@
 //! The points of the layer rest and its nodes keep their motion; the outer edge is fixed.
 
 use super::layer::{by_axis, relative_depth};
-use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
 use super::{Assigned, Context, End, LayerPoints, Layout, Parts, walls};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
@@ -75,10 +75,23 @@ pub static METHOD: MethodInfo = MethodInfo {
         },
     ],
     passive: false,
+    upkeep: upkeep,
 };
 
 /// Cells of a layer whose thickness is not given.
 pub const DEFAULT_CELLS: f64 = 10.0;
+
+fn upkeep(_: &SideMethod, _: Transfer) -> Upkeep {
+    Upkeep {
+        holds: "damping, gradient, memory; springs and matrix of the nodes",
+        point_vectors: 1,
+        point_matrices: 2,
+        node_vectors: 4,
+        // and once more the gradient, when the step is accepted
+        forces: 2.0,
+        passes: 0.0,
+    }
+}
 
 pub(crate) fn layout<const D: usize>(
     problem: &Problem<D>,
@@ -316,10 +329,6 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
             v * self.material.energy_density(&stress[0])
         };
         self.gradient.iter().zip(volumes).map(energy).sum()
-    }
-
-    fn bytes_per_point(&self) -> usize {
-        size_of::<Vector<D>>() + 2 * size_of::<Matrix<D>>()
     }
 }
 

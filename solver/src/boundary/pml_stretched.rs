@@ -19,7 +19,7 @@
 //! takes it away. The memory is kept on nodes, where the paper sends it to points and back.
 
 use super::layer::{by_axis, relative_depth};
-use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod};
+use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
 use super::{Context, DisplacementTransfer, End, LayerPoints, Layout, Parts, walls};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
@@ -133,6 +133,7 @@ pub static METHOD: MethodInfo = MethodInfo {
         },
     ],
     passive: false,
+    upkeep: upkeep,
 };
 
 /// Largest c_p/c_s (nu = 0.396) for which the equations are well-posed at any stretch.
@@ -149,6 +150,22 @@ pub const LARGEST_SPEED_RATIO: f64 = 1.0 + std::f64::consts::SQRT_2;
 pub const DEFAULT_CELLS: f64 = 50.0;
 /// N_t: steps that the memory reaches back.
 const HISTORY: usize = 4;
+
+fn upkeep(method: &SideMethod, transfer: Transfer) -> Upkeep {
+    let remembers = method.number(&METHOD, "relaxed_modulus_ratio") < 1.0;
+    let carried = transfer != Transfer::Keep;
+    Upkeep {
+        holds: "stretch; damping, memory, matrix and unsymmetric solver of the nodes",
+        // with inertia, where points carry it
+        point_vectors: if carried { 2 } else { 1 },
+        point_matrices: 0,
+        node_vectors: 9 + if remembers { HISTORY + 1 } else { 0 },
+        // of the displacement, of its increment, of the memory; each point's moduli are made anew
+        forces: if remembers { 6.0 } else { 4.0 },
+        // displacements to nodes and back
+        passes: if carried { 2.0 } else { 0.0 },
+    }
+}
 
 pub(crate) fn layout<const D: usize>(
     problem: &Problem<D>,
@@ -401,9 +418,5 @@ impl<const D: usize> RegionKernel<D> for Stretched<D> {
             }
         }
         energy
-    }
-
-    fn bytes_per_point(&self) -> usize {
-        size_of::<Vector<D>>()
     }
 }

@@ -16,7 +16,7 @@ use direct::Cholesky;
 
 /// Conjugate gradients give way to a factorisation beyond this many iterations: a triangular solve
 /// costs about as much as eight of them, a factorisation as much as forty.
-const ITERATIONS_WORTH_A_FACTOR: usize = 50;
+pub(crate) const ITERATIONS_WORTH_A_FACTOR: usize = 50;
 /// Without a factorisation to fall back on, conjugate gradients may go on this long.
 const MOST_ITERATIONS: usize = 5_000;
 

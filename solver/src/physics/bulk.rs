@@ -91,10 +91,6 @@ impl<const D: usize> RegionKernel<D> for Kept<D> {
         }
         energy
     }
-
-    fn bytes_per_point(&self) -> usize {
-        0
-    }
 }
 
 /// Points that carry their stress.
@@ -231,9 +227,5 @@ impl<const D: usize> RegionKernel<D> for Carried<D> {
             .zip(volumes)
             .map(|(s, v)| v * self.material.energy_density(s))
             .sum()
-    }
-
-    fn bytes_per_point(&self) -> usize {
-        2 * size_of::<Matrix<D>>()
     }
 }

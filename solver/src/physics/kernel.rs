@@ -136,9 +136,6 @@ pub trait RegionKernel<const D: usize>: Send {
         points: &Points<D>,
         u: &[Vector<D>],
     ) -> f64;
-
-    /// State of one point in bytes.
-    fn bytes_per_point(&self) -> usize;
 }
 
 /// How an unknown is held during a step.
