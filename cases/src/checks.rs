@@ -94,12 +94,12 @@ impl<'a> Checks<'a> {
         });
     }
 
-    /// A pulse that must be over before the run is.
+    /// A pulse that must be over, or have risen if it stays on, before the run is over.
     pub fn pulse(&mut self, pulse: &Pulse, end_s: f64) {
-        self.require(pulse.end() <= end_s, "source.frequency_Hz", || {
+        self.require(pulse.settled() <= end_s, "source.frequency_Hz", || {
             format!(
                 "the pulse lasts {} s, longer than the run (time.end_s = {end_s} s)",
-                pulse.end()
+                pulse.settled()
             )
         });
     }
