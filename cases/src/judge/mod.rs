@@ -10,6 +10,7 @@ mod points;
 pub mod references;
 mod rows;
 mod series;
+mod settlement;
 mod subject;
 
 pub use certified::CERTIFIER;
@@ -163,6 +164,7 @@ fn measure(
                     subject.distances(numbers);
                 }
                 subject.echo(&windows, scene.pulse_amplitude(), numbers);
+                settlement::measure(&subject, numbers);
                 if first {
                     subject.floor(&windows, numbers);
                 }

@@ -10,6 +10,7 @@
 //! | [`energy`] | `energy_left`, `growth_rate_per_s` |
 //! | [`field`] | `l1`, `l2`, `linf` of fields |
 //! | [`goodness`] | `envelope_misfit`, `phase_misfit`, `goodness` |
+//! | [`settlement`] | `settlement_error`, `drift_error`: what stays |
 //! | [`late`] | what a receiver still does late in a run |
 //! | [`mod@order`] | `order` of convergence |
 //!
@@ -25,6 +26,7 @@ pub mod group;
 pub mod late;
 pub mod order;
 pub mod peak;
+pub mod settlement;
 pub mod traces;
 
 mod fit;
@@ -43,6 +45,7 @@ pub use group::{
 pub use late::late_range;
 pub use order::{Order, order};
 pub use peak::{peak_deviation, rd, rd_at, rd_of_maximum};
+pub use settlement::{drift_error, settlement_error};
 pub use traces::{Trace, Traces};
 
 use thiserror::Error;
