@@ -266,18 +266,36 @@ const MOST_ERROR: f64 = 0.04;
 
 #[test]
 fn the_echo_of_a_ricker_wavelet_is_unchanged() {
-    for (mode, transfer) in [
-        (PointMode::Frozen, Transfer::Keep),
-        (PointMode::Moving, Transfer::Affine),
-    ] {
-        let run = |layer| solved(&with(half_space(layer, mode, transfer), Wavelet::Ricker));
-        let reference = run(SideMethod::new("extended"));
-        let echo = |layer| worst_echo(&run(layer), &reference);
-        // alpha of a run of 20 s
-        let (plain, shifted) = (echo(pml()), echo(pml().with("alpha_per_s", 0.23)));
-        println!("{mode:?}: echo {plain:.5}, with a shift {shifted:.5}");
-        assert!(shifted < 1.1 * plain && shifted > 0.7 * plain);
-    }
+    let run = |layer| solved(&frozen(layer, Wavelet::Ricker));
+    let reference = run(SideMethod::new("extended"));
+    let (plain, shifted) = (run(pml()), run(of_a_long_run()));
+    let change = worst_echo(&shifted, &plain);
+    let [plain, shifted] = [plain, shifted].map(|record| worst_echo(&record, &reference));
+    println!("echo {plain:.5}, with a shift {shifted:.5}; series differ by {change:.5}");
+    assert!(shifted < 1.1 * plain && shifted > 0.7 * plain);
+    assert!(change < 0.2 * plain);
+}
+
+/// With the shift of a run of 20 s.
+fn of_a_long_run() -> SideMethod {
+    pml().with("alpha_per_s", 0.23)
+}
+
+#[test]
+fn moving_points_see_the_same_shift() {
+    // what it changes in a force that stays on, beside frozen and beside moving points
+    let change = |mode, transfer| {
+        let run = |layer| {
+            let mut problem = with(half_space(layer, mode, transfer), Wavelet::Step);
+            problem.end_time = 2.0;
+            solved(&problem)
+        };
+        worst_echo(&run(following()), &run(pml()))
+    };
+    let frozen = change(PointMode::Frozen, Transfer::Keep);
+    let moving = change(PointMode::Moving, Transfer::Affine);
+    println!("change by the shift: frozen {frozen:.5}, moving {moving:.5}");
+    assert!((moving / frozen - 1.0).abs() < 0.1 && frozen > 1e-3);
 }
 
 #[test]
@@ -314,7 +332,7 @@ fn settled(methods: &[&str], sets: &[&str]) -> Vec<Row> {
     let folder = tempfile::tempdir().unwrap();
     let mut options = Options::new("point-source", folder.path()).profile("gate");
     options.request.presets = vec!["step".to_owned()];
-    for set in [&["time.end_s=10"], sets].concat() {
+    for set in sets {
         options = options.set(set);
     }
     for method in methods {
@@ -332,8 +350,8 @@ fn settled(methods: &[&str], sets: &[&str]) -> Vec<Row> {
 
 #[test]
 fn the_ground_settles_as_claimed() {
-    let rows = settled(&["pml", "pml-static", "pml-20", "pml-20-static"], &[]);
-    assert_eq!(rows.len(), 12);
+    let rows = settled(&["pml", "pml-static", "pml-20-static"], &[]);
+    assert_eq!(rows.len(), 9);
     for row in rows {
         println!("{} {} {:?}", row.method, row.place, row.value);
         assert_eq!(row.verdict, Some(Verdict::Pass), "{row:?}");

@@ -1,5 +1,5 @@
 //! What is claimed of a force that stays on: how wrong the ground settles, by groups, against the
-//! certified reference. For the paper's target after 20 s (preset `step`) and the gate's after 10 s.
+//! certified reference, 10 s after it began to rise (preset `step`).
 
 use super::PointSource;
 use super::claims::GROUPS;
@@ -23,12 +23,10 @@ const PAPER: &[Measured] = &[];
 
 /// The claims, for the scene as run.
 pub(super) fn claims(scene: &PointSource) -> Vec<SceneClaim> {
-    let gates = is_stated(scene, 1000.0, 10.0);
+    let gates = is_stated(scene, 1000.0);
     let measured = if gates { GATE } else { PAPER };
-    let not_here = (!gates && !is_stated(scene, 2000.0, 20.0)).then(|| {
-        "settlement is stated for the preset step: profile quick, or gate with time.end_s = 10"
-            .to_owned()
-    });
+    let not_here = (!gates && !is_stated(scene, 2000.0))
+        .then(|| "settlement is stated for the preset step as it comes".to_owned());
     let claim = |method: &str, group: &str, value: f64| {
         SceneClaim {
         claim: Claim {
@@ -37,7 +35,7 @@ pub(super) fn claims(scene: &PointSource) -> Vec<SceneClaim> {
             place: group.to_owned(),
             accept: Accept::within(0.75 * value, 1.25 * value),
             evidence: Evidence::Certified,
-            why: "measured, with a quarter to either side: halving or doubling the shift, or leaving it out, moves it by more".to_owned(),
+            why: "measured, with a quarter to either side: without the shift, or with twice as much, it moves by more".to_owned(),
         },
         not_here: not_here.clone(),
     }
@@ -51,12 +49,12 @@ pub(super) fn claims(scene: &PointSource) -> Vec<SceneClaim> {
     measured.iter().flat_map(of).collect()
 }
 
-/// Is this the preset on a square target of `size` (m) until `end` (s)?
-fn is_stated(scene: &PointSource, size: f64, end: f64) -> bool {
+/// Is this the preset on a square target of `size` (m)?
+fn is_stated(scene: &PointSource, size: f64) -> bool {
     let papers = PointSource::default();
     let (source, target) = (&scene.source, &scene.target);
     let width = target.x_max_m - target.x_min_m;
-    (width, target.depth_m, scene.time.end_s) == (size, size, end)
+    (width, target.depth_m, scene.time.end_s) == (size, size, 10.0)
         && (source.frequency, source.x_m, source.direction)
             == (2.0, papers.source.x_m, papers.source.direction)
         && scene.material == papers.material

@@ -91,9 +91,9 @@ pub(super) const PRESETS: &[Overlay] = &[
     ),
     Overlay::new(
         "step",
-        "a force that rises within 0.25 s and stays on, 20 s, frozen points: does the ground settle right?",
+        "a force that rises within 0.25 s and stays on, 10 s, frozen points: does the ground settle right?",
         "source = { wavelet = 'step', frequency_Hz = 2.0, amplitude_N_m = 1e6 }
-        time.end_s = 20.0
+        time.end_s = 10.0
         points = { mode = 'frozen', transfer = 'keep' }",
     ),
     Overlay::new(
