@@ -19,7 +19,12 @@ const GATE: &[Measured] = &[
 ];
 
 /// On the paper's target.
-const PAPER: &[Measured] = &[];
+const PAPER: &[Measured] = &[
+    ("pml", [0.0401, 0.0364, 0.0416]),
+    ("pml-static", [0.0253, 0.0230, 0.0287]),
+    ("pml-20", [0.0121, 0.0111, 0.0126]),
+    ("pml-20-static", [0.0054, 0.0051, 0.0063]),
+];
 
 /// The claims, for the scene as run.
 pub(super) fn claims(scene: &PointSource) -> Vec<SceneClaim> {
