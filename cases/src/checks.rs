@@ -97,13 +97,14 @@ impl<'a> Checks<'a> {
         });
     }
 
-    /// A pulse that must be over before the run is, and that steps of `dt` (s) must see.
+    /// A pulse that must be over, or have risen if it stays on, before the run is over, and that steps
+    /// of `dt` (s) must see.
     pub fn pulse(&mut self, pulse: &Pulse, dt: f64, end_s: f64) {
         let lasting = match pulse.wavelet {
             Wavelet::Ricker => "source.t0_s",
             _ => "source.frequency_Hz",
         };
-        let end = pulse.end();
+        let end = pulse.settled();
         // Blame what the user wrote, not what stood there before.
         let short = self.by_user("time.end_s") && !self.by_user(lasting);
         let field = if short { "time.end_s" } else { lasting };

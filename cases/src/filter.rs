@@ -16,6 +16,8 @@ const METRICS: &[&str] = &[
     "envelope_misfit",
     "phase_misfit",
     "goodness",
+    "settlement_error",
+    "drift_error",
     "peak_deviation",
     "arrival_s",
     "order",

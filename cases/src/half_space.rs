@@ -282,13 +282,13 @@ pub const TARGET_AND_SOURCE: &[Field] = &[
     ),
     Field::new(
         "source.wavelet",
-        Kind::Word(&["sine", "half-sine", "sine-squared", "ricker"]),
+        Kind::Word(&["sine", "half-sine", "sine-squared", "ricker", "step"]),
         "shape of the force over time",
     ),
     Field::new(
         "source.frequency_Hz",
         Kind::Number(Range::POSITIVE),
-        "its frequency f; sine lasts 1/f, half-sine and sine-squared 1/(2f) (Hz)",
+        "its frequency f; sine lasts 1/f, half-sine and sine-squared 1/(2f), in which step rises (Hz)",
     ),
     Field::new(
         "source.amplitude_N_m",

@@ -245,6 +245,9 @@ fn study() -> Study {
         ranking: Some(Ranking::from_rows(&rows, "echo_ratio", Some(floor))),
         rows,
         convergence: Some(convergence()),
+        sweep: None,
+        tradeoff: None,
+        stability: None,
         runs,
         ledger: vec![
             LedgerEntry {

@@ -173,6 +173,8 @@ fn context<'a, const D: usize>(
         material: problem.material,
         moving: problem.point_mode == PointMode::Moving,
         transfer: problem.transfer,
+        mass: problem.mass,
+        end_time: problem.end_time,
         points,
         layer,
         sides,

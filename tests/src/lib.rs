@@ -6,6 +6,7 @@ pub mod program;
 pub mod study;
 
 pub mod twin;
+mod twin_shift;
 
 use anechoic_solver::Monitor;
 use anechoic_solver::boundary::SideMethod;

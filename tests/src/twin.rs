@@ -4,6 +4,7 @@
 //! Unbroken it must agree with the solver's own to rounding; each break must make the echo gate fail.
 //! Its matrices give the spectrum of the semi-discrete operator.
 
+use crate::twin_shift::ShiftedTwin;
 use anechoic_solver::basis::Discretisation;
 use anechoic_solver::error::SolverError;
 use anechoic_solver::linear::block_matrix::BlockMatrix;
@@ -27,6 +28,12 @@ pub enum Broken {
     NoCornerTerm,
     /// The profile starts one cell too far inside: a jump at the inner edge.
     ShiftedProfile,
+    /// The inertia's first memory, T_1 theta_1, is forgotten.
+    NoFirstMemory,
+    /// The springs' part alpha S_1 has the wrong sign.
+    SignOfShiftedSprings,
+    /// The memory of gradients decays as if there were no frequency shift.
+    UnshiftedMemory,
 }
 
 /// The layer's points.
@@ -39,6 +46,8 @@ pub struct Twin {
     lambda: f64,
     shear: f64,
     broken: Broken,
+    /// The inertia under a frequency shift.
+    shifted: Option<ShiftedTwin>,
     /// u_k,l of each point.
     g: Vec<Matrix<2>>,
     /// The memory of each point.
@@ -86,9 +95,21 @@ impl Twin {
             lambda: material.lambda(),
             shear: material.shear_modulus(),
             broken,
+            shifted: None,
             g: vec![zero; n],
             phi: vec![zero; n],
         }
+    }
+
+    /// The same under the frequency shift `alpha` (1/s), with lumped inertia.
+    pub fn shifted(mut self, alpha: f64) -> Self {
+        self.shifted = Some(ShiftedTwin::new(alpha));
+        self
+    }
+
+    /// Frequency shift (1/s).
+    fn alpha(&self) -> f64 {
+        self.shifted.as_ref().map_or(0.0, |shifted| shifted.alpha)
     }
 
     /// Stress-like tensor of a point from gradient and memory.
@@ -114,12 +135,20 @@ impl Twin {
         ]
     }
 
+    /// What the shift adds to the decay of gradients' memory (1/s).
+    fn memory_shift(&self) -> f64 {
+        match self.broken {
+            Broken::UnshiftedMemory => 0.0,
+            _ => self.alpha(),
+        }
+    }
+
     /// Trapezoidal rule for dphi/dt + p phi = g.
     fn memory(&self, q: usize, next: &Matrix<2>, dt: f64) -> Matrix<2> {
         let mut out = self.phi[q];
         for k in 0..2 {
             for l in 0..2 {
-                let p = self.beta[q][l];
+                let p = self.beta[q][l] + self.memory_shift();
                 let rate = 0.5 * (self.g[q][k][l] + next[k][l]) - 0.5 * p * self.phi[q][k][l];
                 out[k][l] = (self.phi[q][k][l] + dt * rate) / (1.0 + 0.5 * p * dt);
             }
@@ -144,6 +173,16 @@ impl Twin {
 impl RegionKernel<2> for Twin {
     fn inertia(&self, block: Range<usize>, out: &mut PointInertia<2>) {
         let own = block.start - self.range.start..block.end - self.range.start;
+        if self.shifted.is_some() {
+            // all of it is in the forces
+            let wrong = match self.broken {
+                Broken::SignOfShiftedSprings => 2.0 * self.alpha(),
+                _ => 0.0,
+            };
+            out.stiffness
+                .extend(self.beta[own].iter().map(|[b1, b2]| [wrong * (b1 + b2); 2]));
+            return;
+        }
         for [b1, b2] in &self.beta[own] {
             let corner = if self.broken == Broken::NoCornerTerm {
                 0.0
@@ -167,6 +206,12 @@ impl RegionKernel<2> for Twin {
                 .disc
                 .scatter_stress(p..p + 1, &trial.points.volume[p..p + 1], &[stress], out);
         }
+        if let Some(mut shifted) = self.shifted.take() {
+            let forgets = self.broken == Broken::NoFirstMemory;
+            shifted.weigh(trial, &self.range, &self.beta);
+            shifted.force(trial, forgets, out);
+            self.shifted = Some(shifted);
+        }
         Ok(())
     }
 
@@ -180,7 +225,8 @@ impl RegionKernel<2> for Twin {
                     unit[k][l] = 1.0;
                     let mut phi = [[0.0; 2]; 2];
                     if self.broken != Broken::LaggedMemory {
-                        phi[k][l] = 0.5 * trial.dt / (1.0 + 0.5 * self.beta[q][l] * trial.dt);
+                        phi[k][l] = 0.5 * trial.dt
+                            / (1.0 + 0.5 * (self.beta[q][l] + self.memory_shift()) * trial.dt);
                     }
                     let stress = self.stress(q, &unit, &phi);
                     for i in 0..2 {
@@ -194,6 +240,10 @@ impl RegionKernel<2> for Twin {
                 .disc
                 .scatter_tangent(p..p + 1, &trial.points.volume[p..p + 1], &[moduli], out);
         }
+        if let Some(shifted) = &mut self.shifted {
+            shifted.weigh(trial, &self.range, &self.beta);
+            shifted.tangent(trial.dt, out);
+        }
     }
 
     fn commit(&mut self, trial: &Trial<'_, 2>) -> Result<(), SolverError> {
@@ -201,6 +251,9 @@ impl RegionKernel<2> for Twin {
             let g = self.gradient(trial, q);
             self.phi[q] = self.memory(q, &g, trial.dt);
             self.g[q] = g;
+        }
+        if let Some(shifted) = &mut self.shifted {
+            shifted.commit(trial);
         }
         Ok(())
     }

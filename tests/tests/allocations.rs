@@ -30,6 +30,9 @@ fn steps_allocate_nothing() {
         SideMethod::new("dashpot"),
         SideMethod::new("damping-layer").with("thickness_m", 10.0),
         SideMethod::new("pml").with("thickness_m", 10.0),
+        SideMethod::new("pml")
+            .with("thickness_m", 10.0)
+            .with("alpha_per_s", 1.0),
     ];
     for base in bases {
         let name = base.method.clone();
@@ -45,6 +48,21 @@ fn steps_allocate_nothing() {
         assert!(short > 0);
         assert_eq!(short, long, "{name}");
     }
+}
+
+#[test]
+fn a_layer_without_a_frequency_shift_pays_nothing_for_it() {
+    let memory = |alpha: f64| {
+        let layer = SideMethod::new("pml")
+            .with("thickness_m", 10.0)
+            .with("alpha_per_s", alpha);
+        allocations(&silent(1.0, layer)).bytes_max
+    };
+    let plain = SideMethod::new("pml").with("thickness_m", 10.0);
+    let plain = allocations(&silent(1.0, plain)).bytes_max;
+    println!("{plain} B plain, {} B with a shift", memory(1.0));
+    // the parameter's own name and number
+    assert!(memory(0.0) < plain + 512 && memory(1.0) > plain + 4096);
 }
 
 /// Growth of the largest memory from one problem to another, as measured and as billed (bytes).

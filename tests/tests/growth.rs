@@ -23,7 +23,7 @@ fn notes(method: &str, nu: f64) -> Vec<String> {
         ..Request::default()
     };
     let run = altered(&request, Some(method), |_| {});
-    let judged = judge_runs(&[run], &References::default());
+    let judged = judge_runs(&[&run], &References::default());
     judged
         .notes
         .into_iter()
@@ -70,6 +70,7 @@ fn judged_with(growth: f64) -> (Vec<Row>, Vec<String>) {
     for (value, t) in total.values.iter_mut().zip(&energy.times) {
         *value *= growth.powf((t - 1.0).max(0.0));
     }
+    let runs: Vec<&Run> = runs.iter().collect();
     let judged = judge_runs(&runs, &References::default());
     let of_layer = judged.rows.into_iter().filter(|row| row.method == "pml");
     (of_layer.collect(), judged.notes)

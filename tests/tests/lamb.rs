@@ -206,6 +206,21 @@ fn mine(change: &[(&str, &str)]) -> Result<Finished, String> {
 fn a_scene_of_the_users_own_is_solved_and_judged() {
     let finished = mine(&[]).unwrap_or_else(|error| panic!("{error}"));
     all_pass(&finished, 3);
+    let left = |finished: &Finished, metric: &str| {
+        let mut rows = finished.rows.iter();
+        let row = rows.find(|row| row.metric == metric && row.place == "right");
+        row.and_then(|row| row.value)
+    };
+    // A net impulse leaves a drift, and no settlement.
+    assert!(left(&finished, "drift_error").is_some_and(|error| error < 0.05));
+    assert_eq!(left(&finished, "settlement_error"), None);
+    // A force that stays on is Lamb's as well.
+    let finished = mine(&[("\"half-sine\"", "\"step\"")]);
+    let finished = finished.unwrap_or_else(|error| panic!("{error}"));
+    all_pass(&finished, 3);
+    println!("settlement {:?}", left(&finished, "settlement_error"));
+    assert!(left(&finished, "settlement_error").is_some_and(|error| error < 0.05));
+    assert_eq!(left(&finished, "drift_error"), None);
     // Another wavelet and the other direction, without a line of code.
     for (wavelet, direction) in [
         ("\"sine-squared\"", "\"vertical\""),

@@ -11,6 +11,7 @@ mod points;
 pub mod references;
 mod rows;
 mod series;
+mod settlement;
 mod stability;
 mod subject;
 mod trades;
@@ -169,6 +170,7 @@ fn measure(
                     subject.distances(numbers);
                 }
                 subject.echo(&windows, scene.pulse_amplitude(), numbers);
+                settlement::measure(&subject, numbers);
                 if first {
                     subject.floor(&windows, numbers);
                 }

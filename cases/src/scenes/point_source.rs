@@ -25,6 +25,7 @@ mod appendix;
 mod claims;
 mod methods;
 mod paper;
+mod settlement;
 mod values;
 
 use crate::checks::Checks;

@@ -170,7 +170,7 @@ fn norm2(values: &[f64]) -> f64 {
     values.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
-fn ratio(trace: &Trace, above: f64, below: f64, what: &str) -> Result<Score, NormError> {
+pub(super) fn ratio(trace: &Trace, above: f64, below: f64, what: &str) -> Result<Score, NormError> {
     if below > 0.0 && below.is_finite() {
         return Ok(Score::new(&trace.name, above / below));
     }

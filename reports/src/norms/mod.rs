@@ -11,6 +11,7 @@
 //! | [`unloaded`] | whether energy grows after the load |
 //! | [`field`] | `l1`, `l2`, `linf` of fields |
 //! | [`goodness`] | `envelope_misfit`, `phase_misfit`, `goodness` |
+//! | [`settlement`] | `settlement_error`, `drift_error`: what stays |
 //! | [`late`] | what a receiver still does late in a run |
 //! | [`mod@order`] | `order` of convergence |
 //!
@@ -26,6 +27,7 @@ pub mod group;
 pub mod late;
 pub mod order;
 pub mod peak;
+pub mod settlement;
 pub mod traces;
 pub mod unloaded;
 
@@ -45,6 +47,7 @@ pub use group::{
 pub use late::late_range;
 pub use order::{Order, order};
 pub use peak::{peak_deviation, rd, rd_at, rd_of_maximum};
+pub use settlement::{drift_error, settlement_error};
 pub use traces::{Trace, Traces};
 pub use unloaded::{ROUNDING_GROWTH, Unloaded};
 

@@ -16,7 +16,7 @@ use crate::error::SolverError;
 use crate::grid::Grid;
 use crate::physics::kernel::{NodeTerm, RegionKernel};
 use crate::points::Points;
-use crate::problem::{Aabb, Elastic, Problem, Side, Transfer};
+use crate::problem::{Aabb, Elastic, MassKind, Problem, Side, Transfer};
 use crate::tensor::Vector;
 use std::ops::Range;
 
@@ -92,6 +92,10 @@ pub struct Context<'a, const D: usize> {
     pub moving: bool,
     /// Transfer between points and nodes.
     pub transfer: Transfer,
+    /// How the inertia of points reaches the nodes.
+    pub mass: MassKind,
+    /// When the run ends (s).
+    pub end_time: f64,
     /// All points.
     pub points: &'a Points<D>,
     /// Those of the method's own layer.

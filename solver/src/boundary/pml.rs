@@ -1,17 +1,25 @@
-//! The true perfectly matched layer: complex stretch `s_j = 1 + beta_j / W`, symmetric and unsplit
-//! (Basu & Chopra 2004; Kucukcoban & Kallivokas 2013), W discretised by the same bilinear map as the
-//! motion, so that only the mesh reflects.
+//! The true perfectly matched layer: complex stretch `s_j = 1 + beta_j / (alpha + W)`, symmetric and
+//! unsplit (Basu & Chopra 2004; Kucukcoban & Kallivokas 2013), W discretised by the same bilinear map as
+//! the motion, so that only the mesh reflects.
 //!
 //! ```text
-//! M = rho,  C = rho (b_1 + b_2),  Kd = rho b_1 b_2
+//! M = rho,  C = rho (b_1 + b_2),  Kd = rho b_1 b_2 - alpha C      (and forces: shift.rs)
 //! beta_j = b_0 (d/L)^2,     b_0 = 3 c_p ln(1/R) / (2 L)
-//! s2/s1 = 1 + r_1/(W + p_1),   p_1 = b_1,   r_1 = b_2 - b_1       (2 the other way round)
+//! s2/s1 = (Z + b_2)/(Z + b_1) = 1 + r_1/(W + p_1),   Z = W + alpha      (2 the other way round)
+//! p_1 = alpha + b_1,   r_1 = b_2 - b_1
 //! dphi_kl/dt + p_l phi_kl = g_kl,          g_kl = u_k,l
 //! phi' = A_l phi + Q_l (g + g'),  A_l = (1 - p_l dt/2)/(1 + p_l dt/2),  Q_l = (dt/2)/(1 + p_l dt/2)
 //! P_ij = sum_k C_ijkj (g_kj + r_j phi_kj) + sum_{l /= j} sum_k C_ijkl g_kl
 //! ```
 //!
 //! The points of the layer rest and its nodes keep their motion; the outer edge is fixed.
+//!
+//! Without the shift alpha (Kuzuoglu & Mittra 1996) the stretch of a load that stays on grows for ever,
+//! and the layer clamps it. With it the stretch ends at 1 + beta_j/alpha: the layer rests like elastic
+//! material of the thickness L + c_p ln(1/R)/(2 alpha), which is c_p T and some for alpha = ln(1/R)/(2 T),
+//! T the length of the run. One alpha holds in the whole layer, or corners would need a third memory.
+
+mod shift;
 
 use super::layer::{by_axis, relative_depth};
 use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
@@ -25,8 +33,9 @@ use crate::physics::inertia::PointInertia;
 use crate::physics::kernel::{RegionKernel, Stiffness, Trial};
 use crate::physics::stiffness::scatter_moduli;
 use crate::points::{BLOCK, Points, blocks};
-use crate::problem::{Problem, Scheme, Side, Transfer};
+use crate::problem::{MassKind, Problem, Scheme, Side, Transfer};
 use crate::tensor::{Matrix, Tensor4, Vector, contract, zero};
+use shift::{Layer, STATIC_LOADS, ShiftedInertia, one_shift, shift_of};
 use std::ops::Range;
 
 /// The method's entry.
@@ -52,6 +61,21 @@ pub static METHOD: MethodInfo = MethodInfo {
                 default: None,
                 min: 1e-300,
                 max: 0.999,
+            },
+        },
+        Param {
+            name: "static_load",
+            doc: "clamp: what stays on is held at the outer edge; follow: the layer gives way as so much ground as waves cross in the run, alpha = ln(1/R)/(2 T)",
+            kind: ParamKind::Choice(STATIC_LOADS),
+        },
+        Param {
+            name: "alpha_per_s",
+            doc: "frequency shift alpha of the stretch; by default as static_load says (0 with clamp)",
+            kind: ParamKind::Number {
+                unit: "1/s",
+                default: None,
+                min: 0.0,
+                max: 1e9,
             },
         },
         Param {
@@ -120,6 +144,7 @@ pub(crate) fn layout<const D: usize>(
             "unstable with points.transfer = \"flip\", whose motion is filtered and the layer's damping is not; use \"affine\", or pml.with_flip = \"force\" to see it grow",
         );
     }
+    one_shift(problem, side, method)?;
     let outside = method
         .given_number("thickness_m")
         .unwrap_or(DEFAULT_CELLS * problem.cell_size);
@@ -144,6 +169,11 @@ pub fn reflection(method: &SideMethod, cells: f64) -> f64 {
         .unwrap_or(default_reflection(cells))
 }
 
+/// Reflection aimed at on a side.
+fn aim<const D: usize>(context: &Context<'_, D>, a: &Assigned) -> f64 {
+    reflection(&a.method, a.layout.outside / context.grid.h[a.side.axis])
+}
+
 /// Reflection aimed at for a layer of so many cells: thin layers want a large one.
 fn default_reflection(cells: f64) -> f64 {
     const TABLE: [(f64, f64); 4] = [(5.0, -3.0), (10.0, -4.0), (20.0, -6.0), (50.0, -8.0)];
@@ -155,23 +185,24 @@ fn default_reflection(cells: f64) -> f64 {
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
     let speed = context.material.p_speed();
-    let strength = |a: &Assigned| {
-        let thickness = a.layout.outside;
-        let cells = thickness / context.grid.h[a.side.axis];
-        let r = reflection(&a.method, cells);
-        1.5 * speed * (1.0 / r).ln() / thickness
-    };
+    let strength = |a: &Assigned| 1.5 * speed * (1.0 / aim(context, a)).ln() / a.layout.outside;
     let places = &context.points.place[context.layer.clone()];
     let beta = places.iter().map(|x| {
         let (depth, strength) = (relative_depth(context, x), by_axis(context, x, strength));
         std::array::from_fn(|a| strength[a] * depth[a] * depth[a])
     });
     let n = places.len();
+    let alpha = shift_of(context);
+    let consistent = context.mass == MassKind::Consistent;
+    let shifted =
+        (alpha > 0.0).then(|| ShiftedInertia::new(alpha, consistent, context.grid.node_count()));
     let kernel = Pml {
         range: context.layer.clone(),
         material: LinearElastic::new(&context.material),
         moduli: LinearElastic::new(&context.material).small_moduli(),
         beta: beta.collect(),
+        alpha,
+        shifted,
         gradient: vec![zero(); n],
         memory: vec![zero(); n],
     };
@@ -188,6 +219,10 @@ struct Pml<const D: usize> {
     moduli: Tensor4<D>,
     /// Damping beta_j of each point (1/s).
     beta: Vec<Vector<D>>,
+    /// Frequency shift alpha (1/s).
+    alpha: f64,
+    /// What it adds to the inertia.
+    shifted: Option<ShiftedInertia<D>>,
     /// g, the displacement gradient of each point.
     gradient: Vec<Matrix<D>>,
     /// phi, its low-passed integral (s).
@@ -206,14 +241,15 @@ struct Coefficients<const D: usize> {
 
 impl<const D: usize> Coefficients<D> {
     #[inline]
-    fn new(beta: &Vector<D>, dt: f64) -> Self {
+    fn new(beta: &Vector<D>, alpha: f64, dt: f64) -> Self {
         let total: f64 = beta.iter().sum();
         let half = 0.5 * dt;
+        let p = beta.map(|b| alpha + b);
         Coefficients {
             // the other axis minus this one, in two dimensions
             r: beta.map(|b| total - 2.0 * b),
-            keep: beta.map(|p| (1.0 - p * half) / (1.0 + p * half)),
-            gain: beta.map(|p| half / (1.0 + p * half)),
+            keep: p.map(|p| (1.0 - p * half) / (1.0 + p * half)),
+            gain: p.map(|p| half / (1.0 + p * half)),
         }
     }
 
@@ -249,8 +285,9 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
     fn inertia(&self, block: Range<usize>, out: &mut PointInertia<D>) {
         let own = block.start - self.range.start..block.end - self.range.start;
         for beta in &self.beta[own] {
-            out.viscous.push([beta.iter().sum(); D]);
-            out.stiffness.push([beta.iter().product(); D]);
+            let (first, second): (f64, f64) = (beta.iter().sum(), beta.iter().product());
+            out.viscous.push([first; D]);
+            out.stiffness.push([second - self.alpha * first; D]);
         }
     }
 
@@ -261,7 +298,7 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
             self.next_gradient(trial, &block, &mut next[..n]);
             for (b, (g, stress)) in next[..n].iter().zip(&mut stress).enumerate() {
                 let q = block.start - self.range.start + b;
-                let c = Coefficients::new(&self.beta[q], trial.dt);
+                let c = Coefficients::new(&self.beta[q], self.alpha, trial.dt);
                 let phi = c.advance(&self.memory[q], &self.gradient[q], g);
                 for i in 0..D {
                     for j in 0..D {
@@ -276,13 +313,18 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
             let volumes = &trial.points.volume[block.clone()];
             trial.disc.scatter_stress(block, volumes, &stress[..n], out);
         }
+        if let Some(shifted) = &mut self.shifted {
+            let (range, beta) = (&self.range, self.beta.as_slice());
+            shifted.force(trial, Layer { range, beta }, out);
+        }
         Ok(())
     }
 
-    /// A_ijkl = C_ijkl, and for l = j times 1 + r_j Q_j: symmetric, constant while dt is.
+    /// A_ijkl = C_ijkl, and for l = j times 1 + r_j Q_j, and what a shift adds: symmetric, constant while
+    /// dt is.
     fn tangent(&mut self, trial: &Trial<'_, D>, out: &mut BlockMatrix<D>) {
         let moduli_of = |p: usize| {
-            let c = Coefficients::new(&self.beta[p - self.range.start], trial.dt);
+            let c = Coefficients::new(&self.beta[p - self.range.start], self.alpha, trial.dt);
             let mut a = self.moduli;
             for i in 0..D {
                 for j in 0..D {
@@ -294,6 +336,10 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
             a
         };
         scatter_moduli(self.range.clone(), trial, moduli_of, out);
+        if let Some(shifted) = &mut self.shifted {
+            let (range, beta) = (&self.range, self.beta.as_slice());
+            shifted.tangent(trial, Layer { range, beta }, out);
+        }
     }
 
     fn commit(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError> {
@@ -303,10 +349,13 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
             self.next_gradient(trial, &block, &mut next[..n]);
             for (b, g) in next[..n].iter().enumerate() {
                 let q = block.start - self.range.start + b;
-                let c = Coefficients::new(&self.beta[q], trial.dt);
+                let c = Coefficients::new(&self.beta[q], self.alpha, trial.dt);
                 self.memory[q] = c.advance(&self.memory[q], &self.gradient[q], g);
                 self.gradient[q] = *g;
             }
+        }
+        if let Some(shifted) = &mut self.shifted {
+            shifted.commit(trial);
         }
         Ok(())
     }
@@ -356,7 +405,7 @@ mod tests {
     #[test]
     fn memory_follows_its_equation() {
         // a constant gradient from rest: phi = g/p (1 - exp(-p t))
-        let c = Coefficients::<2>::new(&[3.0, 0.0], 1e-3);
+        let c = Coefficients::<2>::new(&[3.0, 0.0], 0.0, 1e-3);
         let g = [[2.0, 1.0], [0.0, 0.0]];
         let mut phi = zero::<2>();
         for _ in 0..1000 {

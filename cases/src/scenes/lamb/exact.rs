@@ -24,7 +24,7 @@ pub(super) const LARGEST_START: f64 = 1e-3;
 pub(super) enum Smoothness {
     /// For every purpose: a Ricker wavelet that starts in silence.
     Smooth,
-    /// Its second derivative jumps: sin^2.
+    /// Its second derivative jumps: sin^2, and what rises like it.
     Bent,
     /// Its first derivative jumps: sine, half a sine; or itself does a little: a Ricker wavelet that is
     /// cut at its start.
@@ -37,7 +37,7 @@ impl Smoothness {
             Wavelet::Ricker if pulse.value(0.0).abs() <= SILENT_START * pulse.amplitude => {
                 Smoothness::Smooth
             }
-            Wavelet::SineSquared => Smoothness::Bent,
+            Wavelet::SineSquared | Wavelet::Step => Smoothness::Bent,
             Wavelet::Ricker | Wavelet::Sine | Wavelet::HalfSine => Smoothness::Kinked,
         }
     }
@@ -137,6 +137,7 @@ mod tests {
             (Wavelet::SineSquared, 0.5, 1e-4),
             (Wavelet::Sine, 0.5, 1e-3),
             (Wavelet::HalfSine, 0.5, 1e-3),
+            (Wavelet::Step, 0.5, 1e-4),
         ] {
             let mut scene = Lamb::default();
             (scene.source.wavelet, scene.source.t0_s) = (wavelet, t0_s);

@@ -1,7 +1,7 @@
 //! What is claimed of the boundary methods: echo ratios of the groups against the certified
 //! reference, for the paper's target (profiles `quick`, `paper`) and for the gate's.
 
-use super::PointSource;
+use super::{PointSource, settlement};
 use crate::scene::SceneClaim;
 use anechoic_reference::claim::{Accept, Claim, Evidence};
 use anechoic_reports::tradeoff::RELATIVE_COST;
@@ -15,10 +15,13 @@ type Stated = (&'static str, &'static str, Accept, &'static str);
 /// of small meshes have (0.02 to 0.37).
 const GROWTH: f64 = 0.01;
 
-const GROUPS: [&str; 3] = ["A", "B", "C"];
+pub(super) const GROUPS: [&str; 3] = ["A", "B", "C"];
 
 /// The claims, for the scene as run.
 pub(super) fn claims(scene: &PointSource) -> Vec<SceneClaim> {
+    if scene.source.wavelet == Wavelet::Step {
+        return settlement::claims(scene);
+    }
     let (stated, not_here) = if is_gate(scene) {
         (gate(), None)
     } else {

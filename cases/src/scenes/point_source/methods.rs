@@ -79,6 +79,18 @@ pub(super) const METHODS: &[Overlay] = &[
         around!("{ method = 'pml', thickness_m = 1000.0 }"),
     ),
     Overlay::new(
+        "pml-static",
+        "10 cells that give way under a load that stays on",
+        around!("{ method = 'pml', static_load = 'follow' }"),
+    )
+    .on_request(),
+    Overlay::new(
+        "pml-20-static",
+        "the same of 400 m",
+        around!("{ method = 'pml', thickness_m = 400.0, static_load = 'follow' }"),
+    )
+    .on_request(),
+    Overlay::new(
         "extended",
         "so much elastic material that nothing comes back: what the certified reference is",
         around!("{ method = 'extended' }"),

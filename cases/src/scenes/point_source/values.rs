@@ -90,6 +90,13 @@ pub(super) const PRESETS: &[Overlay] = &[
         "source = { wavelet = 'half-sine', frequency_Hz = 2.0, amplitude_N_m = 1e6 }",
     ),
     Overlay::new(
+        "step",
+        "a force that rises within 0.25 s and stays on, 10 s, frozen points: does the ground settle right?",
+        "source = { wavelet = 'step', frequency_Hz = 2.0, amplitude_N_m = 1e6 }
+        time.end_s = 10.0
+        points = { mode = 'frozen', transfer = 'keep' }",
+    ),
+    Overlay::new(
         "paper-transfer",
         "the paper's own transfer between points and nodes (flip), with its own layer",
         "points.transfer = 'flip'
