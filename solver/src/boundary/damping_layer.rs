@@ -81,7 +81,7 @@ pub static METHOD: MethodInfo = MethodInfo {
         },
     ],
     passive: true,
-    upkeep: upkeep,
+    upkeep,
 };
 
 fn upkeep(_: &SideMethod, _: Transfer) -> Upkeep {

@@ -99,7 +99,7 @@ pub static METHOD: MethodInfo = MethodInfo {
         },
     ],
     passive: false,
-    upkeep: upkeep,
+    upkeep,
 };
 
 /// Cells of a layer whose thickness is not given.
