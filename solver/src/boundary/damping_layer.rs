@@ -60,7 +60,7 @@ pub static METHOD: MethodInfo = MethodInfo {
             kind: ParamKind::Choice(&["fixed", "roller", "free"]),
         },
     ],
-    upkeep: upkeep,
+    upkeep,
 };
 
 fn upkeep(_: &SideMethod, _: Transfer) -> Upkeep {

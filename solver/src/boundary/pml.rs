@@ -60,7 +60,7 @@ pub static METHOD: MethodInfo = MethodInfo {
             kind: ParamKind::Choice(&["refuse", "force"]),
         },
     ],
-    upkeep: upkeep,
+    upkeep,
 };
 
 const DEFAULT_CELLS: f64 = 10.0;

@@ -110,7 +110,7 @@ pub static METHOD: MethodInfo = MethodInfo {
             kind: ParamKind::Choice(&["replaced", "incremental"]),
         },
     ],
-    upkeep: upkeep,
+    upkeep,
 };
 
 /// Largest c_p/c_s (nu = 0.396) for which the equations are well-posed at any stretch.
