@@ -13,7 +13,6 @@ use anechoic_solver::problem::Problem;
 use std::path::Path;
 
 /// Assignments that make a column two cells wide: the wave is the same, the cost is not.
-/// A column two cells wide.
 pub const NARROW: [&str; 3] = ["body.width_m=2", "receivers.A.x_m=1", "receivers.B.x_m=1"];
 
 /// compression-1d at profile `gate` on a narrow column; results go to `out`.

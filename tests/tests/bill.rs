@@ -227,6 +227,6 @@ fn work_is_what_features_name_and_about_what_is_billed() {
     for (feature, ratio) in ratios {
         let ratio = ratio / speed;
         println!("{feature}: {ratio:.2}");
-        assert!((0.5..2.0).contains(&ratio), "{feature}: {ratio}");
+        assert!((1.0 / 3.0..3.0).contains(&ratio), "{feature}: {ratio}");
     }
 }

@@ -16,15 +16,13 @@ fn column(out: &Path) -> Options {
     NARROW.iter().fold(options, |options, set| options.set(set))
 }
 
-/// A force on 400 x 400 m, two receivers, 2 s: enough to see a layer grow.
+/// A force on 400 x 400 m, two receivers, 5 s: enough to see a layer grow.
 fn half_space(out: &Path) -> Options {
     [
         "target.x_max_m=1400",
         "target.depth_m=400",
         "receivers=[{name='A1',x_m=1305,y_m=-65},{name='B1',x_m=1125,y_m=-305}]",
         "pml-stretched.thickness_m=200",
-        "t1_s=1",
-        "time.end_s=2",
     ]
     .into_iter()
     .fold(
@@ -62,7 +60,7 @@ fn a_sweep_of_impedance_finds_the_reflection_of_theory() {
     let again = commands::report(out.path(), None).unwrap();
     assert_eq!(again.studies[0].rows, finished.rows);
     let page = std::fs::read_to_string(&finished.study.report).unwrap();
-    assert!(page.contains("dashpot.impedance=0.5") && page.matches("<svg").count() >= 2);
+    assert!(page.contains("dashpot.impedance=0.5") && page.contains("<svg"));
 }
 
 #[test]
@@ -139,7 +137,7 @@ fn advice_in_a_column_is_the_dashpot() {
     );
     // Thicker layers leave less, until the mesh's own error is left.
     let echo = |cells: f64| {
-        let label = format!("thickness_m={}", 2.0 * cells);
+        let label = format!("thickness_m={cells}");
         let found = study
             .trades
             .iter()

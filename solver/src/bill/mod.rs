@@ -3,17 +3,19 @@
 //! Memory is counted from the columns that a feature names, time from the passes over points and nodes
 //! that it makes in a step, at measured [`prices`].
 
+mod counts;
 mod prices;
 
 use crate::basis::{Discretisation, on_grid};
+use crate::boundary;
 use crate::boundary::params::Upkeep;
-use crate::boundary::{self, LayerPoints};
 use crate::error::SolverError;
-use crate::geometry::{Geometry, Owner};
+use crate::geometry::Geometry;
 use crate::grid::Grid;
 use crate::points::Points;
 use crate::problem::{MassKind, PointMode, Problem, Scheme, Transfer};
 use crate::tensor::{Matrix, Vector};
+use counts::Counts;
 use prices::{BALANCE, PLACE, Prices, STEP, solve_in_iterations};
 
 /// One feature in use.
@@ -134,57 +136,6 @@ fn features<const D: usize>(
             }),
     );
     features
-}
-
-/// Points by who handles them.
-struct Counts {
-    /// The material's own kernel.
-    bulk: usize,
-    target: usize,
-    /// Method, how its points behave, their number.
-    layers: Vec<(&'static str, LayerPoints, usize)>,
-}
-
-impl Counts {
-    fn of<const D: usize>(problem: &Problem<D>, geometry: &Geometry<D>) -> Self {
-        let mut counts = Counts {
-            bulk: 0,
-            target: 0,
-            layers: Vec::new(),
-        };
-        let along = geometry.material_cells_along();
-        for cell in 0..along.iter().product() {
-            match geometry.owner(&problem.target, &geometry.cell_centre(cell)) {
-                Owner::Target => counts.target += problem.points_per_cell,
-                Owner::Outside => counts.bulk += problem.points_per_cell,
-                Owner::Layer(name, kind) => {
-                    let mut layers = counts.layers.iter_mut();
-                    match layers.find(|(n, k, _)| (*n, *k) == (name, kind)) {
-                        Some((.., points)) => *points += problem.points_per_cell,
-                        None => counts.layers.push((name, kind, problem.points_per_cell)),
-                    }
-                }
-            }
-        }
-        counts.bulk += counts.target;
-        counts
-    }
-
-    fn layer(&self, method: &str) -> usize {
-        let own = self.layers.iter().filter(|(name, ..)| *name == method);
-        own.map(|(.., points)| points).sum()
-    }
-
-    /// Points that carry the motion, when any do.
-    fn carrying(&self) -> usize {
-        let carried = |(_, kind, _): &&(_, LayerPoints, _)| *kind == LayerPoints::Carried;
-        let layers = self.layers.iter().filter(carried);
-        self.bulk + layers.map(|(.., points)| points).sum::<usize>()
-    }
-
-    fn all(&self) -> usize {
-        self.bulk + self.layers.iter().map(|(.., points)| points).sum::<usize>()
-    }
 }
 
 /// Writes the items of a problem.

@@ -64,7 +64,7 @@ const BASES: [(&str, &[&str]); 5] = [
 const PER_CELL: [usize; 4] = [1, 4, 9, 16];
 
 /// Steps of the long run: under the gate's profile, and else.
-const LONG: [f64; 2] = [5000.0, 100_000.0];
+const LONG: [f64; 2] = [2000.0, 100_000.0];
 
 /// What becomes of `stability`.
 pub(super) fn stability(options: &Options) -> Result<Plan, CaseError> {
