@@ -22,6 +22,8 @@ fn half_space(out: &Path) -> Options {
         "target.x_max_m=1400",
         "target.depth_m=400",
         "receivers=[{name='A1',x_m=1305,y_m=-65},{name='B1',x_m=1125,y_m=-305}]",
+        "grid.h_m=40",
+        "pml.thickness_m=200",
         "pml-stretched.thickness_m=200",
     ]
     .into_iter()
@@ -168,7 +170,9 @@ fn outcome<'a>(finished: &'a Finished, method: &str, label: &str) -> &'a Outcome
 #[test]
 fn what_theory_says_is_stable_is_stable_at_all_extremes() {
     let out = tempfile::tempdir().unwrap();
-    let finished = commands::stability(&column(out.path())).unwrap();
+    let methods = ["fixed", "dashpot", "damping-layer", "pml"];
+    let options = methods.iter().fold(column(out.path()), |o, m| o.method(m));
+    let finished = commands::stability(&options).unwrap();
     let judged = |row: &&Row| row.verdict.is_some();
     let claims: Vec<&Row> = finished.rows.iter().filter(judged).collect();
     assert!(claims.len() > 60, "{} claims", claims.len());
@@ -192,7 +196,8 @@ fn what_theory_says_is_stable_is_stable_at_all_extremes() {
 
 /// What is known to grow is found: the true layer forced under flip, whose points filter what its
 /// damping does not, and the published layer in nearly incompressible material, where its equations
-/// are ill-posed beyond nu = 0.396; neither grows where it must not.
+/// are ill-posed beyond nu = 0.396; and the true layer itself beyond nu = 0.49, where its spectrum on a
+/// mesh has growing modes as well (`operator.rs`). Neither grows where it must not.
 #[test]
 fn what_grows_is_found_and_what_is_refused_is_named() {
     let out = tempfile::tempdir().unwrap();
@@ -202,9 +207,10 @@ fn what_grows_is_found_and_what_is_refused_is_named() {
         ("pml", "moving, flip (pml forced)", true),
         ("pml", "moving, affine", false),
         ("pml", "frozen, keep", false),
-        ("pml", "nu=0.4999", false),
+        ("pml", "nu=0.49", false),
+        ("pml", "nu=0.4999", true),
         ("pml", "dt = 100 h/c_p", false),
-        ("pml", "pml.thickness_m=20", false),
+        ("pml", "pml.thickness_m=40", false),
         ("pml", "16 a cell", false),
         ("pml", "bspline, consistent", false),
         ("pml-stretched", "nu=0.25", false),
@@ -214,7 +220,7 @@ fn what_grows_is_found_and_what_is_refused_is_named() {
         println!("{method}, {label}: {}", ended.long());
         match grows {
             true => assert!(
-                matches!(ended, Outcome::Grows(_)),
+                matches!(ended, Outcome::Grows(_) | Outcome::Diverged(_)),
                 "{method}, {label}: {ended:?}"
             ),
             false => assert!(
@@ -229,7 +235,8 @@ fn what_grows_is_found_and_what_is_refused_is_named() {
         assert!(!matches!(ended, Outcome::Open(_)), "{method}: {ended:?}");
         if let Outcome::Diverged(why) | Outcome::NotConverged(why) | Outcome::Refused(why) = ended {
             println!("{method}: {}", ended.long());
-            assert!(why.contains("step") || why.contains(':'), "{why}");
+            let place = ["step", "t = ", ": "];
+            assert!(place.iter().any(|word| why.contains(word)), "{why}");
         }
     }
 }

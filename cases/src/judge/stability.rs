@@ -85,9 +85,22 @@ pub(super) fn outcome(run: &Run) -> Outcome {
         }
         Status::Failed(why) => Outcome::Diverged(why.clone()),
         Status::Complete => match unloaded(run, &run.prepared.scene.problem()) {
-            None => Outcome::Open("its energy tells nothing".to_owned()),
+            None => overflown(run),
             Some(energy) => of_energy(&energy),
         },
+    }
+}
+
+/// A run whose fields are finite and whose energy is not.
+fn overflown(run: &Run) -> Outcome {
+    let energy = &run.record.energy;
+    let total = energy.column("total").unwrap_or_default();
+    match total.iter().position(|value| !value.is_finite()) {
+        Some(i) => Outcome::Diverged(format!(
+            "its energy is too large for a number from t = {} s on",
+            energy.times[i]
+        )),
+        None => Outcome::Open("its energy tells nothing".to_owned()),
     }
 }
 

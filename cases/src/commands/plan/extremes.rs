@@ -12,8 +12,10 @@ use anechoic_solver::problem::Drive;
 
 /// Steps over the time that the fastest wave takes through a cell.
 const STEPS: [f64; 7] = [0.001, 0.01, 0.1, 1.0, 5.0, 20.0, 100.0];
-/// Most and fewest steps of a run whose step is an extreme.
-const COUNT: [f64; 2] = [200.0, 2000.0];
+/// Fewest steps of a run whose step is an extreme.
+const FEWEST: f64 = 200.0;
+/// Most steps of it: under the gate's profile, and else.
+const MOST: [f64; 2] = [500.0, 2000.0];
 /// Steps that a pulse takes at least, so that it is one.
 const IN_PULSE: f64 = 20.0;
 
@@ -185,9 +187,10 @@ fn timed(scene: &Prepared, label: String, dt: f64, count: f64) -> Setting {
 fn steps(scene: &Prepared) -> Vec<Setting> {
     let problem = scene.scene.problem();
     let cell = scene.scene.cell_m() / problem.material.p_speed();
+    let most = if scene.profile == "gate" { MOST[0] } else { MOST[1] };
     let of = |factor: &f64| {
         let dt = factor * cell;
-        let count = (problem.end_time / dt).clamp(COUNT[0], COUNT[1]).round();
+        let count = (problem.end_time / dt).clamp(FEWEST, most).round();
         timed(scene, format!("dt = {factor} h/c_p"), dt, count)
     };
     STEPS.iter().map(of).collect()
