@@ -5,6 +5,7 @@ use crate::certified::causality::with_buffers;
 use crate::certified::library::Library;
 use crate::commands::{Atlas, Finished, Recomputed};
 use crate::error::CaseError;
+use crate::estimate::{seconds, us_per_point_step};
 use crate::field::short;
 use crate::prepare::Prepared;
 use crate::scene::{Overlay, SceneInfo};
@@ -19,19 +20,11 @@ use anechoic_reports::table::{
 };
 use anechoic_solver::Bill;
 use anechoic_solver::boundary::METHODS;
-use anechoic_solver::problem::{PointMode, Problem, Transfer};
+use anechoic_solver::problem::Problem;
 use anechoic_solver::record::Status;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::Write as _;
-
-/// Time of a point-step (us) where nodes keep their motion, with layers and pictures, as measured on
-/// one core of a server of 2023.
-const FROZEN_US: f64 = 0.11;
-/// The same where points that rest carry the motion.
-const CARRIED_US: f64 = 0.3;
-/// The same where points move.
-const MOVING_US: f64 = 0.6;
 
 /// Prints to stdout; a reader that has gone away is no error.
 pub fn out(text: &str) {
@@ -195,12 +188,7 @@ pub fn show(prepared: &Prepared, format: Format) -> Result<String, CaseError> {
 
 /// About how long a run takes.
 fn estimate(problem: &Problem<2>, bill: &Bill) -> String {
-    let us = match (problem.point_mode, problem.transfer) {
-        (PointMode::Frozen, Transfer::Keep) => FROZEN_US,
-        (PointMode::Frozen, _) => CARRIED_US,
-        (PointMode::Moving, _) => MOVING_US,
-    };
-    let seconds = 1e-6 * us * bill.points as f64 * bill.steps as f64;
+    let (seconds, us) = (seconds(problem, bill), us_per_point_step(problem));
     format!("about {seconds:.0} s ({us} us a point-step on one core)")
 }
 
