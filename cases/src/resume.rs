@@ -68,8 +68,7 @@ impl Decision {
         match &run.manifest.status {
             Status::Complete => {}
             Status::Cancelled => return Decision::Solve("it was stopped before its end".into()),
-            // At extremes a run that fails is an answer, as whole as any.
-            Status::Failed(_) if reuse == Reuse::Whole && !kind.has_echoes() => {}
+            Status::Failed(_) if reuse == Reuse::Whole && kind.failure_is_answer() => {}
             Status::Failed(error) => return Decision::Solve(format!("it failed: {error}")),
         }
         // Rows carry the profile's name; the same values may have been run under another.

@@ -23,7 +23,7 @@ impl Wanted {
     /// Is there none that serves until the problem's end?
     pub fn is_missing(&self, library: &Library) -> Result<bool, CaseError> {
         let found = library.find(self.case, &self.problem)?;
-        Ok(!found.is_some_and(|found| found.about.serves(self.problem.last_time()).is_ok()))
+        Ok(found.is_none_or(|found| found.about.serves(self.problem.last_time()).is_err()))
     }
 }
 

@@ -49,14 +49,15 @@ pub struct Share {
     pub without: Vec<String>,
     /// The command that merges, as typed but for the shard.
     pub merge: String,
-    stability: bool,
+    failure_is_answer: bool,
     stopped: bool,
 }
 
 impl Share {
     /// The exit code: that of runs that failed or were stopped, where failing is no answer.
     pub fn exit_code(&self) -> u8 {
-        let failed = |run: &Solved| matches!(run.status, Status::Failed(_)) && !self.stability;
+        let failed =
+            |run: &Solved| matches!(run.status, Status::Failed(_)) && !self.failure_is_answer;
         if self.stopped || self.solved.iter().any(failed) {
             exit::SOLVER_FAILED
         } else {
@@ -128,7 +129,7 @@ pub fn share(mut plan: Plan, options: &Options, shard: Shard) -> Result<Share, C
         references,
         without,
         merge: format!("{} --resume", options.command),
-        stability: !kind.has_echoes(),
+        failure_is_answer: kind.failure_is_answer(),
         stopped: stopped(),
     })
 }
