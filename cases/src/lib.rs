@@ -4,6 +4,7 @@
 //! - [`spec`], [`half_space`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
 //! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
 //! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
+//! - [`shard`]: shares of a plan for several processes.
 //! - [`frames`]: fields over time on request.
 //! - [`runner`], [`progress`]: solving; [`store`]: records on disk; [`resume`]: those that are read
 //!   back instead of solved; [`foreign`]: series of other programs.
@@ -38,6 +39,7 @@ pub mod runner;
 pub mod scene;
 pub mod scene_text;
 pub mod scenes;
+pub mod shard;
 pub mod spec;
 pub mod store;
 pub mod study;

@@ -13,6 +13,7 @@ use crate::prepare::Prepared;
 use crate::provenance::made_by_this_program;
 use crate::runner::{Run, Task};
 use crate::store::{FIELDS, load};
+use crate::study::Kind;
 use anechoic_solver::record::Status;
 use std::path::{Path, PathBuf};
 
@@ -42,7 +43,13 @@ pub enum Decision {
 
 impl Decision {
     /// What becomes of a scene in the study's folder.
-    pub fn of(scene: &Prepared, study: &Path, reuse: Reuse, sampling: Sampling) -> Self {
+    pub fn of(
+        scene: &Prepared,
+        study: &Path,
+        kind: &Kind,
+        reuse: Reuse,
+        sampling: Sampling,
+    ) -> Self {
         let folder = study.join(folder(scene));
         match (reuse, folder.is_dir()) {
             (Reuse::Nothing, _) => return Decision::Solve("every run is solved".into()),
@@ -61,6 +68,7 @@ impl Decision {
         match &run.manifest.status {
             Status::Complete => {}
             Status::Cancelled => return Decision::Solve("it was stopped before its end".into()),
+            Status::Failed(_) if reuse == Reuse::Whole && kind.failure_is_answer() => {}
             Status::Failed(error) => return Decision::Solve(format!("it failed: {error}")),
         }
         // Rows carry the profile's name; the same values may have been run under another.
@@ -117,10 +125,15 @@ pub struct Todo {
 ///
 /// # Errors
 /// [`CaseError::Usage`] when nothing is left.
-pub fn tasks(scenes: Vec<Prepared>, study: &Path, options: &Options) -> Result<Todo, CaseError> {
+pub fn tasks(
+    scenes: Vec<Prepared>,
+    study: &Path,
+    kind: &Kind,
+    options: &Options,
+) -> Result<Todo, CaseError> {
     let mut todo = Todo::default();
     for scene in scenes {
-        match Decision::of(&scene, study, options.reuse, options.sampling) {
+        match Decision::of(&scene, study, kind, options.reuse, options.sampling) {
             Decision::Solve(_) => todo.tasks.push(Task::Solve(Box::new(scene))),
             // The scene as asked is the scene as stored: their hashes are the same.
             Decision::Take(run) => todo.tasks.push(Task::Take(Box::new(Run {
@@ -146,6 +159,7 @@ mod tests {
     use crate::prepare::{Request, Target};
     use crate::provenance;
     use crate::store::{Manifest, Store};
+    use crate::sweep::Grid;
     use anechoic_solver::record::{Cost, Record, SeriesTable};
 
     fn prepared(profile: &str) -> Prepared {
@@ -205,7 +219,13 @@ mod tests {
     ) -> (&'static str, String) {
         let root = tempfile::tempdir().unwrap();
         let store = stored(root.path(), change);
-        let decision = Decision::of(&prepared("gate"), store.folder(), reuse, sampling);
+        let decision = Decision::of(
+            &prepared("gate"),
+            store.folder(),
+            &Kind::Comparison,
+            reuse,
+            sampling,
+        );
         (decision.word(), decision.why().to_owned())
     }
 
@@ -246,14 +266,33 @@ mod tests {
     }
 
     #[test]
+    fn at_extremes_a_failure_is_an_answer_that_is_kept() {
+        let root = tempfile::tempdir().unwrap();
+        let failed = |m: &mut Manifest| m.status = Status::Failed("det F".into());
+        let store = stored(root.path(), failed);
+        let kind = Kind::Stability(Grid::default());
+        let of = |reuse| {
+            let scene = prepared("gate");
+            let decision = Decision::of(&scene, store.folder(), &kind, reuse, Sampling::default());
+            decision.word()
+        };
+        assert_eq!(of(Reuse::Whole), "take from disk");
+        assert_eq!(of(Reuse::AllButFailed), "solve");
+    }
+
+    #[test]
     fn what_is_missing_is_solved_by_resume_and_left_out_by_failed() {
         let root = tempfile::tempdir().unwrap();
-        let of = |reuse| Decision::of(&prepared("gate"), root.path(), reuse, Sampling::default());
+        let kind = Kind::Comparison;
+        let of = |reuse| {
+            let scene = prepared("gate");
+            Decision::of(&scene, root.path(), &kind, reuse, Sampling::default())
+        };
         assert_eq!(of(Reuse::Whole).word(), "solve");
         assert_eq!(of(Reuse::AllButFailed).word(), "leave out");
         let mut options = Options::new("compression-1d", root.path());
         options.reuse = Reuse::AllButFailed;
-        let nothing = tasks(vec![prepared("gate")], root.path(), &options);
+        let nothing = tasks(vec![prepared("gate")], root.path(), &kind, &options);
         assert!(nothing.unwrap_err().to_string().contains("--failed"));
     }
 

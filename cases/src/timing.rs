@@ -11,6 +11,7 @@ use anechoic_solver::record::Status;
 use anechoic_solver::solve;
 use cpu_time::ThreadTime;
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// Name of the file in a study's folder.
@@ -44,6 +45,20 @@ pub fn load(folder: &Path) -> Result<Timings, CaseError> {
 /// [`CaseError::Storage`].
 pub fn forget(folder: &Path) -> Result<(), CaseError> {
     write_file(&folder.join(TIMING), &json(&Timings::new())?)
+}
+
+/// Takes the times of a study away, whoever else does so at the same time.
+///
+/// # Errors
+/// [`CaseError::Storage`].
+pub fn remove(folder: &Path) -> Result<(), CaseError> {
+    let path = folder.join(TIMING);
+    match std::fs::remove_file(&path) {
+        Err(source) if source.kind() != ErrorKind::NotFound => {
+            Err(CaseError::Storage { path, source })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Times all complete runs that are not in the study's file, up to `repeats` times each, one after the
@@ -87,8 +102,19 @@ pub fn key(run: &Run) -> String {
 
 /// How often a run is repeated.
 fn times(run: &Run, repeats: usize) -> usize {
-    let fit = BUDGET_S / run.record.cost.cpu_s.max(1e-3);
+    repeated(run.record.cost.cpu_s, repeats)
+}
+
+/// How often a run of so many seconds is repeated.
+fn repeated(cpu_s: f64, repeats: usize) -> usize {
+    let fit = BUDGET_S / cpu_s.max(1e-3);
     (fit as usize).clamp(1, repeats.max(1))
+}
+
+/// What timing a run of so many seconds takes (s), with the one that warms up.
+pub fn seconds(cpu_s: f64, repeats: usize) -> f64 {
+    let warm = if cpu_s < SHORT_S { cpu_s } else { 0.0 };
+    warm + cpu_s * repeated(cpu_s, repeats) as f64
 }
 
 /// The problem without what is sampled for pictures.

@@ -47,7 +47,9 @@ fn value(rows: &[Row], method: &str, metric: &str, place: &str) -> f64 {
 fn a_sweep_of_impedance_finds_the_reflection_of_theory() {
     let out = tempfile::tempdir().unwrap();
     let over = ["dashpot.impedance=0.5,1,2".to_owned()];
-    let finished = commands::sweep(&column(out.path()), &over).unwrap();
+    let options = column(out.path());
+    let plan = commands::plan_sweep(&options, &over).unwrap();
+    let finished = commands::execute(plan, &options).unwrap();
     for (a, low, high) in [("0.5", 0.30, 0.36), ("1", 0.0, 0.03), ("2", 0.30, 0.36)] {
         let place = format!("A@dashpot.impedance={a}");
         let echo = value(&finished.rows, "dashpot", "echo_ratio", &place);
@@ -71,7 +73,7 @@ fn axes_that_vary_nothing_are_refused() {
     let refused = |over: &[&str], methods: &[&str]| {
         let options = methods.iter().fold(column(out.path()), |o, m| o.method(m));
         let over: Vec<String> = over.iter().map(|text| (*text).to_owned()).collect();
-        let error = commands::sweep(&options, &over).unwrap_err();
+        let error = commands::plan_sweep(&options, &over).unwrap_err();
         assert_eq!(error.exit_code(), exit::USAGE);
         error.to_string()
     };
@@ -113,7 +115,14 @@ fn the_appendix_is_planned_without_repeats() {
 fn advice_in_a_column_is_the_dashpot() {
     let out = tempfile::tempdir().unwrap();
     let options = column(out.path()).method("dashpot").method("pml");
-    let finished = commands::tradeoff(&options, 1).unwrap();
+    let with_repeats = |repeats: usize| {
+        let options = Options {
+            repeats,
+            ..options.clone()
+        };
+        commands::execute(commands::plan_tradeoff(&options).unwrap(), &options).unwrap()
+    };
+    let finished = with_repeats(1);
     let study = finished.study.tradeoff.as_ref().unwrap();
     let ten = &study.advice[0];
     let of = |method: &str| {
@@ -147,7 +156,7 @@ fn advice_in_a_column_is_the_dashpot() {
         found.and_then(|t| t.echo).unwrap()
     };
     assert!(echo(2.0) > 2.0 * echo(5.0) && echo(5.0) > echo(10.0));
-    let untimed = commands::tradeoff(&options, 0).unwrap();
+    let untimed = with_repeats(0);
     assert!(
         !untimed
             .rows
@@ -172,7 +181,8 @@ fn what_theory_says_is_stable_is_stable_at_all_extremes() {
     let out = tempfile::tempdir().unwrap();
     let methods = ["fixed", "dashpot", "damping-layer", "pml"];
     let options = methods.iter().fold(column(out.path()), |o, m| o.method(m));
-    let finished = commands::stability(&options).unwrap();
+    let finished =
+        commands::execute(commands::plan_stability(&options).unwrap(), &options).unwrap();
     let judged = |row: &&Row| row.verdict.is_some();
     let claims: Vec<&Row> = finished.rows.iter().filter(judged).collect();
     assert!(claims.len() > 60, "{} claims", claims.len());
@@ -202,7 +212,8 @@ fn what_theory_says_is_stable_is_stable_at_all_extremes() {
 fn what_grows_is_found_and_what_is_refused_is_named() {
     let out = tempfile::tempdir().unwrap();
     let options = half_space(out.path()).method("pml").method("pml-stretched");
-    let finished = commands::stability(&options).unwrap();
+    let finished =
+        commands::execute(commands::plan_stability(&options).unwrap(), &options).unwrap();
     for (method, label, grows) in [
         ("pml", "moving, flip (pml forced)", true),
         ("pml", "moving, affine", false),

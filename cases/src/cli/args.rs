@@ -1,72 +1,22 @@
 //! Arguments.
 
+mod examples;
+mod studies;
+
 use crate::commands::{Options, ScoreOptions};
 use crate::frames::Sampling;
 use crate::prepare::Request;
 use crate::resume::Reuse;
+use crate::shard::Shard;
 use anechoic_reports::diff::REL_TOL;
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use examples::{
+    CONVERGE_EXAMPLES, EXAMPLES, PLAN_EXAMPLES, SOLVE_EXAMPLES, STABILITY_EXAMPLES, SWEEP_EXAMPLES,
+    TRADEOFF_EXAMPLES,
+};
 use std::path::PathBuf;
-
-const EXAMPLES: &str = "\
-Examples:
-  anechoic list                                       cases and methods
-  anechoic compare compression-1d                     all methods, ranked
-  anechoic run compression-1d --method dashpot --set grid.h_m=0.5
-  anechoic show compression-1d --toml > my.toml       edit it, then:
-  anechoic run my.toml
-  anechoic ablation point-source                      what each part of a method absorbs
-  anechoic converge lamb --over grid.h_m=20,10        the order with which errors fall
-  anechoic sweep point-source --over pml.thickness_m=100..400:100
-  anechoic atlas point-source                         reflection of plane waves by angle
-  anechoic report results                             rebuild the report from records
-  anechoic diff before after                          what moved between two results
-  anechoic score compression-1d series.csv            another program's series beside ours
-
-Exit codes: 0 pass, 1 a claim failed (diff: something changed), 2 usage or input (an output
-folder that cannot be written included), 3 a run failed or was stopped, a record is damaged, or
-a result could not be written midway, 4 a reference is missing.";
-
-const SOLVE_EXAMPLES: &str = "\
-Examples:
-  anechoic compare compression-1d --profile gate --jobs 2
-  anechoic compare compression-1d --set dashpot.impedance=0.5 --filter dashpot
-  anechoic run my.toml --format json > rows.json
-  anechoic compare point-source --resume              after a stop or a kill
-  anechoic run compression-1d --method damping-layer --dry-run";
-
-const CONVERGE_EXAMPLES: &str = "\
-Examples:
-  anechoic converge lamb --over grid.h_m=20,10,5
-  anechoic converge compression-1d --over grid.h_m=4,2,1,0.5 --set source.wavelet=sine-squared
-  anechoic converge compression-1d --over pml.thickness_m=40,20,10 --method pml";
-
-const SWEEP_EXAMPLES: &str = "\
-The scene is a case, a file, or a named sweep: appendix-a, or a part of it, as appendix-a/thickness.
-
-Examples:
-  anechoic sweep point-source --over pml.thickness_m=100..400:100
-  anechoic sweep point-source --over pml.thickness_m,damping-layer.thickness_m=200,400,800
-  anechoic sweep compression-1d --over grid.h_m=2,1 --over dashpot.impedance=0.5,1,2
-  anechoic sweep point-source --method pml-stretched \\
-    --over pml-stretched.alpha=0.8..4:0.8/pml-stretched.thickness_m=200..1000:200
-  anechoic sweep appendix-a --dry-run                 all points of K25, Appendix A";
-
-const TRADEOFF_EXAMPLES: &str = "\
-Examples:
-  anechoic tradeoff point-source                      which method, how thick, at what cost
-  anechoic tradeoff compression-1d --method pml --method dashpot
-  anechoic tradeoff my.toml --repeats 5";
-
-const STABILITY_EXAMPLES: &str = "\
-A run that grows, diverges or does not converge is a result here, and ends with 0; a method that
-theory says is stable and that is not ends with 1.
-
-Examples:
-  anechoic stability point-source --profile gate      a few minutes
-  anechoic stability compression-1d --method pml --method dashpot
-  anechoic stability my.toml";
+use studies::{CompareArgs, ConvergeArgs, SolveArgs, StabilityArgs, SweepArgs, TradeoffArgs};
 
 /// Measures how much echo boundary methods leave in particle geomechanics.
 #[derive(Debug, Parser)]
@@ -131,6 +81,11 @@ pub enum Command {
     /// Drive all methods to extremes of step, material, layer and points: which stay stable.
     #[command(after_help = STABILITY_EXAMPLES)]
     Stability(StabilityArgs),
+    /// Write a study down as jobs for Snakemake or Slurm: shards of it, and their merge.
+    ///
+    /// Jobs ask for time and memory by the bill of their runs.
+    #[command(after_help = PLAN_EXAMPLES)]
+    Plan(PlanArgs),
     /// Compute a scene's certified reference and its floor, and store it.
     ///
     /// Its floor is how much it changes under a larger buffer and a tenth of the solver's tolerance:
@@ -209,145 +164,6 @@ impl SceneArgs {
     }
 }
 
-/// Which scene, which methods.
-#[derive(Debug, Args)]
-pub struct SolveArgs {
-    /// Boundary method, as a preset over sides; repeatable for compare [default: run: the scene's
-    /// sides, compare: all that apply].
-    #[arg(long)]
-    method: Vec<String>,
-    /// Write fields.pvd for ParaView into each run's folder: the displacement at the scene's own
-    /// times and at 20 times over the run.
-    #[arg(long)]
-    fields: bool,
-    #[command(flatten)]
-    pub work: WorkArgs,
-}
-
-impl SolveArgs {
-    /// The options, with the command as typed.
-    pub fn options(&self) -> Options {
-        Options {
-            methods: self.method.clone(),
-            sampling: Sampling {
-                fields: self.fields,
-                animation: false,
-            },
-            ..self.work.options()
-        }
-    }
-}
-
-/// Which scene, which methods, and what is shown of them.
-#[derive(Debug, Args)]
-pub struct CompareArgs {
-    #[command(flatten)]
-    pub solve: SolveArgs,
-    /// Write animation.gif beside the report: the wave field of the standard run, of a method and
-    /// of the run without echo, which are solved as well if they are not asked for.
-    #[arg(long)]
-    animate: bool,
-}
-
-impl CompareArgs {
-    /// The options, with the command as typed.
-    pub fn options(&self) -> Options {
-        let mut options = self.solve.options();
-        options.sampling.animation = self.animate;
-        options
-    }
-}
-
-/// Which scene, which method, which levels.
-#[derive(Debug, Args)]
-pub struct ConvergeArgs {
-    /// The number to refine and its values: a field, or a method's parameter.
-    #[arg(long, value_name = "FIELD=VALUE,VALUE,...")]
-    pub over: String,
-    /// Boundary method, as a preset over sides [default: the scene's sides].
-    #[arg(long)]
-    method: Option<String>,
-    #[command(flatten)]
-    pub work: WorkArgs,
-}
-
-impl ConvergeArgs {
-    /// The options, with the command as typed.
-    pub fn options(&self) -> Options {
-        Options {
-            methods: self.method.iter().cloned().collect(),
-            ..self.work.options()
-        }
-    }
-}
-
-/// Which scene, which methods, which points.
-#[derive(Debug, Args)]
-pub struct SweepArgs {
-    /// What is varied: a list or a range `FROM..TO:STEP`; fields that have the same values are joined
-    /// by `,`, fields that advance together by `/`; repeated, axes are crossed.
-    #[arg(long, value_name = "FIELD=VALUES")]
-    pub over: Vec<String>,
-    /// Boundary method; repeatable [default: those whose parameters are varied, else all that apply].
-    #[arg(long)]
-    method: Vec<String>,
-    #[command(flatten)]
-    pub work: WorkArgs,
-}
-
-impl SweepArgs {
-    /// The options, with the command as typed.
-    pub fn options(&self) -> Options {
-        Options {
-            methods: self.method.clone(),
-            ..self.work.options()
-        }
-    }
-}
-
-/// Which scene, which methods, how carefully timed.
-#[derive(Debug, Args)]
-pub struct TradeoffArgs {
-    /// Boundary method; repeatable [default: all that apply]. The extended mesh is always there.
-    #[arg(long)]
-    method: Vec<String>,
-    /// How often short runs are timed, one after the other, after the runs for accuracy; 0: not at all.
-    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u8).range(0..100))]
-    pub repeats: u8,
-    #[command(flatten)]
-    pub work: WorkArgs,
-}
-
-impl TradeoffArgs {
-    /// The options, with the command as typed.
-    pub fn options(&self) -> Options {
-        Options {
-            methods: self.method.clone(),
-            ..self.work.options()
-        }
-    }
-}
-
-/// Which scene, which methods.
-#[derive(Debug, Args)]
-pub struct StabilityArgs {
-    /// Boundary method; repeatable [default: all that apply].
-    #[arg(long)]
-    method: Vec<String>,
-    #[command(flatten)]
-    pub work: WorkArgs,
-}
-
-impl StabilityArgs {
-    /// The options, with the command as typed.
-    pub fn options(&self) -> Options {
-        Options {
-            methods: self.method.clone(),
-            ..self.work.options()
-        }
-    }
-}
-
 /// What to solve and where to put it.
 #[derive(Debug, Args)]
 pub struct WorkArgs {
@@ -361,7 +177,11 @@ pub struct WorkArgs {
     pub out: PathBuf,
     /// Runs at a time, each on one thread [default: one a processor].
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
-    jobs: Option<u16>,
+    pub jobs: Option<u16>,
+    /// Solve this share of the runs only, for example 1/4, and judge nothing: the others are those
+    /// of other processes, and the same command with --resume and without --shard merges them.
+    #[arg(long, value_name = "SHARE/SHARES")]
+    pub shard: Option<Shard>,
     /// Output format.
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
@@ -492,14 +312,52 @@ impl ScoreArgs {
     }
 }
 
-/// The command as typed. However often it was interrupted, a study is that of the command without
-/// the words that say how to go on.
+/// Which study, in how many jobs, where they are written down.
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    /// Jobs, each with a share of the runs [default: as many as take some ten minutes each].
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    pub shards: Option<u16>,
+    /// Folder of the files.
+    #[arg(long, value_name = "DIR")]
+    pub into: PathBuf,
+    /// The study: compare, ablation, converge, sweep, tradeoff or stability, with its options;
+    /// --jobs there is the threads of each job [default: 1].
+    #[arg(last = true, required = true, value_name = "COMMAND")]
+    pub command: Vec<String>,
+}
+
+/// The command that some words name; ends the program when they name none.
+pub fn parse(words: &[String]) -> Option<Command> {
+    let name = std::iter::once("anechoic");
+    let words = name.chain(words.iter().map(String::as_str));
+    Arguments::parse_from(words).command
+}
+
+/// The command as typed. However often it was interrupted and however it was shared out, a study is
+/// that of the command without the words that say so.
 fn typed() -> String {
-    let words = std::env::args().skip(1);
-    let words: Vec<String> = words
-        .filter(|w| w != "--resume" && w != "--failed")
-        .collect();
+    let words = lasting(std::env::args().skip(1), &["--shard"]);
     format!("anechoic {}", words.join(" "))
+}
+
+/// The words of a command without those that say how to go on, and without some flags and their
+/// values.
+pub fn lasting(words: impl Iterator<Item = String>, flags: &[&str]) -> Vec<String> {
+    let mut kept = Vec::new();
+    let mut of_flag = false;
+    for word in words {
+        if std::mem::take(&mut of_flag) || ["--resume", "--failed"].contains(&word.as_str()) {
+            continue;
+        }
+        let flag = word.split('=').next().unwrap_or_default();
+        if flags.contains(&flag) {
+            of_flag = flag == word;
+            continue;
+        }
+        kept.push(word);
+    }
+    kept
 }
 
 /// A share: from 0 to 1.
@@ -520,4 +378,24 @@ pub enum Format {
     Table,
     /// For programs; rows as in summary.json.
     Json,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_that_say_how_to_go_on_do_not_last() {
+        let left = |text: &str| {
+            let words = text.split(' ').map(str::to_owned);
+            lasting(words, &["--shard", "--jobs"]).join(" ")
+        };
+        for text in [
+            "sweep a --resume --shard 1/2 --set b=1",
+            "sweep a --shard=1/2 --jobs 2 --set b=1 --failed",
+            "--jobs=3 sweep a --set b=1 --shard 1/2",
+        ] {
+            assert_eq!(left(text), "sweep a --set b=1", "{text}");
+        }
+    }
 }

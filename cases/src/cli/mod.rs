@@ -3,14 +3,14 @@
 mod args;
 mod print;
 mod print_plan;
+mod studies;
 
-use crate::commands::{self, Finished, Options, Plan};
+use crate::commands::{self, Finished};
 use crate::error::{CaseError, exit};
-use crate::over::Over;
 use crate::scenes::SCENES;
 use crate::{progress, scene_text};
 use anechoic_reports::diff::diff_table;
-use args::{Arguments, Command, Format, WorkArgs};
+use args::{Arguments, Command, Format};
 use clap::Parser;
 use std::path::Path;
 
@@ -52,21 +52,16 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             };
             print::out(&text);
         }
-        Some(Command::Run(solve)) => {
-            let options = solve.options();
-            let plan = commands::plan_run(&options)?;
-            return solve_or_show(&solve.work, &options, &plan, || commands::run(&options));
-        }
-        Some(Command::Compare(compare)) => {
-            let (solve, options) = (&compare.solve, compare.options());
-            let plan = commands::plan_compare(&options)?;
-            return solve_or_show(&solve.work, &options, &plan, || commands::compare(&options));
-        }
-        Some(Command::Ablation(work)) => {
-            let options = work.options();
-            let plan = commands::plan_ablation(&options)?;
-            return solve_or_show(work, &options, &plan, || commands::ablation(&options));
-        }
+        Some(
+            command @ (Command::Run(_)
+            | Command::Compare(_)
+            | Command::Ablation(_)
+            | Command::Converge(_)
+            | Command::Sweep(_)
+            | Command::Tradeoff(_)
+            | Command::Stability(_)),
+        ) => return studies::solve(command),
+        Some(Command::Plan(arguments)) => return studies::write_down(arguments),
         Some(Command::Atlas(arguments)) => {
             stop_on_interrupt()?;
             let atlas = commands::atlas(&arguments.options(), arguments.surface)?;
@@ -75,30 +70,6 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
             }
             print::out(&print::atlas(&atlas, arguments.format)?);
             return Ok(atlas.exit_code());
-        }
-        Some(Command::Converge(converge)) => {
-            let (options, over) = (converge.options(), Over::parse(&converge.over)?);
-            let plan = commands::plan_converge(&options, &over)?;
-            let solve = || commands::converge(&options, &over);
-            return solve_or_show(&converge.work, &options, &plan, solve);
-        }
-        Some(Command::Sweep(sweep)) => {
-            let (options, over) = (sweep.options(), &sweep.over);
-            let plan = commands::plan_sweep(&options, over)?;
-            let solve = || commands::sweep(&options, over);
-            return solve_or_show(&sweep.work, &options, &plan, solve);
-        }
-        Some(Command::Tradeoff(tradeoff)) => {
-            let options = tradeoff.options();
-            let plan = commands::plan_tradeoff(&options)?;
-            let solve = || commands::tradeoff(&options, tradeoff.repeats.into());
-            return solve_or_show(&tradeoff.work, &options, &plan, solve);
-        }
-        Some(Command::Stability(stability)) => {
-            let options = stability.options();
-            let plan = commands::plan_stability(&options)?;
-            let solve = || commands::stability(&options);
-            return solve_or_show(&stability.work, &options, &plan, solve);
         }
         Some(Command::Reference { scene, into }) => {
             stop_on_interrupt()?;
@@ -142,24 +113,6 @@ fn act(arguments: &Arguments) -> Result<u8, CaseError> {
         }
     }
     Ok(exit::PASS)
-}
-
-/// Solves and prints, or says what would be solved.
-fn solve_or_show(
-    work: &WorkArgs,
-    options: &Options,
-    plan: &Plan,
-    command: impl FnOnce() -> Result<Finished, CaseError>,
-) -> Result<u8, CaseError> {
-    for (method, why) in &plan.left_out {
-        eprintln!("{method} is left out: {why}");
-    }
-    if work.dry_run {
-        print::out(&print_plan::plan(plan, options, work.format)?);
-        return Ok(exit::PASS);
-    }
-    stop_on_interrupt()?;
-    print_finished(command()?, work.format)
 }
 
 /// Prints what came of a study; returns the exit code.

@@ -4,10 +4,12 @@ mod atlas;
 mod diff;
 mod export;
 mod plan;
+mod references;
 mod score;
+mod share;
+mod workflow;
 
 use crate::certified::Certified;
-use crate::certified::key;
 use crate::certified::library::Library;
 use crate::certified::solve::{compute, difference, measure_floor};
 use crate::error::{CaseError, exit};
@@ -16,23 +18,22 @@ use crate::frames::Sampling;
 use crate::over::Over;
 use crate::prepare::{Prepared, Request, Target};
 use crate::resume::{Reuse, Todo, folder, tasks};
-use crate::runner::{Task, pool, run_all};
+use crate::runner::{Task, run_all};
 use crate::store::Store;
 use crate::study::stored::{Found, Study, find_studies};
 use crate::study::{ANIMATION, Kind, Published, publish};
 use crate::timing;
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
-use anechoic_solver::problem::Problem;
 use anechoic_solver::record::Status;
 pub use atlas::{Atlas, atlas};
 pub use diff::compare_rows;
 pub use export::{Exported, export};
 pub use plan::Plan;
-use rayon::prelude::*;
 pub use score::{ScoreOptions, score};
-use std::collections::BTreeMap;
+pub use share::{Share, Solved, share};
 use std::path::{Path, PathBuf};
+pub use workflow::{Workflow, workflow};
 
 /// What `run` and `compare` are asked.
 #[derive(Clone, Debug)]
@@ -191,14 +192,6 @@ pub fn plan_ablation(options: &Options) -> Result<Plan, CaseError> {
     Plan::ablation(options)
 }
 
-/// Takes a scene's method apart: solves its variants and judges what each part absorbs.
-///
-/// # Errors
-/// As [`run`].
-pub fn ablation(options: &Options) -> Result<Finished, CaseError> {
-    execute(Plan::ablation(options)?, options)
-}
-
 /// What `converge` would do.
 ///
 /// # Errors
@@ -224,14 +217,6 @@ pub fn plan_sweep(options: &Options, over: &[String]) -> Result<Plan, CaseError>
     Plan::sweep(options, over)
 }
 
-/// Solves one scene at the points of a sweep, with several methods: a named sweep, or what `over` says.
-///
-/// # Errors
-/// As [`run`].
-pub fn sweep(options: &Options, over: &[String]) -> Result<Finished, CaseError> {
-    execute(Plan::sweep(options, over)?, options)
-}
-
 /// What `tradeoff` would do.
 ///
 /// # Errors
@@ -240,33 +225,12 @@ pub fn plan_tradeoff(options: &Options) -> Result<Plan, CaseError> {
     Plan::tradeoff(options)
 }
 
-/// Solves one scene with each method on its ladder, times the runs up to `repeats` times each, and
-/// sets error against cost.
-///
-/// # Errors
-/// As [`run`].
-pub fn tradeoff(options: &Options, repeats: usize) -> Result<Finished, CaseError> {
-    let options = Options {
-        repeats,
-        ..options.clone()
-    };
-    execute(Plan::tradeoff(&options)?, &options)
-}
-
 /// What `stability` would do.
 ///
 /// # Errors
 /// Whatever is wrong with the request.
 pub fn plan_stability(options: &Options) -> Result<Plan, CaseError> {
     Plan::stability(options)
-}
-
-/// Solves one scene with all methods at extremes, and says which stay stable.
-///
-/// # Errors
-/// As [`run`].
-pub fn stability(options: &Options) -> Result<Finished, CaseError> {
-    execute(Plan::stability(options)?, options)
 }
 
 /// A certified reference that was computed.
@@ -353,7 +317,11 @@ pub fn report(folder: &Path, filter: Option<&str>) -> Result<Rebuilt, CaseError>
     })
 }
 
-fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
+/// Solves what a plan says, judges and publishes it.
+///
+/// # Errors
+/// As [`run`].
+pub fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
     let store = Store::open(&options.out, &plan.folder())?;
     if options.reuse != Reuse::Nothing {
         // What is half written there is of a command that was killed.
@@ -361,7 +329,7 @@ fn execute(plan: Plan, options: &Options) -> Result<Finished, CaseError> {
             store.sweep(&folder(scene))?;
         }
     }
-    let Todo { tasks, left_out } = tasks(plan.scenes, store.folder(), options)?;
+    let Todo { tasks, left_out } = tasks(plan.scenes, store.folder(), &plan.kind, options)?;
     let left_out = left_out.into_iter();
     let notes: Vec<String> = left_out
         .map(|(scene, why)| format!("{} is left out: {why}", plan.kind.name_of_scene(&scene)))
@@ -388,8 +356,8 @@ fn execute_tasks(
         damaged: Vec::new(),
     };
     if study.kind.has_echoes() {
-        let scenes = tasks.iter().map(Task::scene);
-        provide_references(scenes, &Library::of_results(&options.out), options.jobs)?;
+        let wanted = references::wanted(tasks.iter().map(Task::scene));
+        references::provide(&wanted, &Library::of_results(&options.out), options.jobs)?;
     }
     study.announce()?;
     // One of earlier runs would not show these; that there is none is no failure.
@@ -402,35 +370,4 @@ fn execute_tasks(
         timing::measure(&runs, store.folder(), options.repeats)?;
     }
     Finished::new(publish(Study { runs, ..study })?, filter)
-}
-
-/// Solves for the certified references that the scenes need and that nobody has stored, `jobs` at a
-/// time.
-///
-/// One that cannot be computed is no error here: the runs go on, and their claims say why they were
-/// not evaluated.
-fn provide_references<'a>(
-    scenes: impl Iterator<Item = &'a Prepared>,
-    library: &Library,
-    jobs: usize,
-) -> Result<(), CaseError> {
-    let mut problems = BTreeMap::new();
-    for scene in scenes {
-        if let Some(problem) = scene.scene.extended() {
-            let hash = key::hash(&key::table(&problem));
-            problems.insert(hash, (scene.info.name, problem));
-        }
-    }
-    let obtain =
-        |(_, (case, problem)): (_, (&str, Problem<2>))| match library.obtain(case, &problem) {
-            Ok(_) | Err(CaseError::Solver(_) | CaseError::Stopped(_)) => Ok(()),
-            Err(error) => Err(error),
-        };
-    let problems: Vec<_> = problems.into_iter().collect();
-    pool(jobs)?.install(|| {
-        problems
-            .into_par_iter()
-            .with_max_len(1)
-            .try_for_each(obtain)
-    })
 }

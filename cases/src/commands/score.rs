@@ -93,7 +93,13 @@ pub fn score(options: &ScoreOptions) -> Result<Finished, CaseError> {
 fn ours(plan: Plan, study: &Path, standard: &str) -> (Vec<Task>, Vec<String>) {
     let (mut tasks, mut absent) = (Vec::new(), Vec::new());
     for scene in plan.scenes {
-        match Decision::of(&scene, study, Reuse::AllButFailed, Sampling::default()) {
+        match Decision::of(
+            &scene,
+            study,
+            &Kind::Comparison,
+            Reuse::AllButFailed,
+            Sampling::default(),
+        ) {
             Decision::Take(run) => tasks.push(Task::Take(Box::new(Run {
                 prepared: scene,
                 ..*run

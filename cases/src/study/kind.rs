@@ -46,6 +46,11 @@ impl Kind {
         !matches!(self, Kind::Stability(_))
     }
 
+    /// Is a run that fails an answer, as whole as any? At extremes it is.
+    pub fn failure_is_answer(&self) -> bool {
+        matches!(self, Kind::Stability(_))
+    }
+
     /// Folder of a case's study of this kind.
     pub fn folder(&self, case: &str) -> String {
         match self {

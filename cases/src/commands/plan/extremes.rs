@@ -187,7 +187,11 @@ fn timed(scene: &Prepared, label: String, dt: f64, count: f64) -> Setting {
 fn steps(scene: &Prepared) -> Vec<Setting> {
     let problem = scene.scene.problem();
     let cell = scene.scene.cell_m() / problem.material.p_speed();
-    let most = if scene.profile == "gate" { MOST[0] } else { MOST[1] };
+    let most = if scene.profile == "gate" {
+        MOST[0]
+    } else {
+        MOST[1]
+    };
     let of = |factor: &f64| {
         let dt = factor * cell;
         let count = (problem.end_time / dt).clamp(FEWEST, most).round();
