@@ -192,6 +192,14 @@ pub fn plan_ablation(options: &Options) -> Result<Plan, CaseError> {
     Plan::ablation(options)
 }
 
+/// Takes a scene's method apart: solves its variants and judges what each part absorbs.
+///
+/// # Errors
+/// As [`run`].
+pub fn ablation(options: &Options) -> Result<Finished, CaseError> {
+    execute(Plan::ablation(options)?, options)
+}
+
 /// What `converge` would do.
 ///
 /// # Errors
@@ -217,6 +225,14 @@ pub fn plan_sweep(options: &Options, over: &[String]) -> Result<Plan, CaseError>
     Plan::sweep(options, over)
 }
 
+/// Solves one scene at the points of a sweep, with several methods: a named sweep, or what `over` says.
+///
+/// # Errors
+/// As [`run`].
+pub fn sweep(options: &Options, over: &[String]) -> Result<Finished, CaseError> {
+    execute(Plan::sweep(options, over)?, options)
+}
+
 /// What `tradeoff` would do.
 ///
 /// # Errors
@@ -225,12 +241,33 @@ pub fn plan_tradeoff(options: &Options) -> Result<Plan, CaseError> {
     Plan::tradeoff(options)
 }
 
+/// Solves one scene with each method on its ladder, times the runs up to `repeats` times each, and
+/// sets error against cost.
+///
+/// # Errors
+/// As [`run`].
+pub fn tradeoff(options: &Options, repeats: usize) -> Result<Finished, CaseError> {
+    let options = Options {
+        repeats,
+        ..options.clone()
+    };
+    execute(Plan::tradeoff(&options)?, &options)
+}
+
 /// What `stability` would do.
 ///
 /// # Errors
 /// Whatever is wrong with the request.
 pub fn plan_stability(options: &Options) -> Result<Plan, CaseError> {
     Plan::stability(options)
+}
+
+/// Solves one scene with all methods at extremes, and says which stay stable.
+///
+/// # Errors
+/// As [`run`].
+pub fn stability(options: &Options) -> Result<Finished, CaseError> {
+    execute(Plan::stability(options)?, options)
 }
 
 /// A certified reference that was computed.
