@@ -16,6 +16,7 @@ use crate::judge::{
 use crate::pictures::{self, Picture, animation};
 use crate::runner::Run;
 use crate::store::{save_rows, write_file};
+use crate::sweep::named;
 use crate::timing;
 use anechoic_reports::convergence::Convergence;
 use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
@@ -25,7 +26,7 @@ use anechoic_reports::provenance::Provenance;
 use anechoic_reports::ranking::{Floor, Ranking};
 use anechoic_reports::row::Row;
 use anechoic_reports::stability::Stability;
-use anechoic_reports::study::{self as reports, Figure, LedgerEntry, RunSummary};
+use anechoic_reports::study::{self as reports, Figure, Finding, LedgerEntry, RunSummary};
 use anechoic_reports::sweep::Sweep;
 use anechoic_reports::tradeoff::Tradeoff;
 use anechoic_solver::record::Status;
@@ -287,9 +288,9 @@ fn describe(
                     .map(|damage| summary_of_damage(damage, kind)),
             )
             .collect(),
-        ledger: info
-            .ledger
+        ledger: sweep_ledger(kind)
             .iter()
+            .chain(info.ledger)
             .map(|(finding, place, note)| LedgerEntry {
                 finding: *finding,
                 place: (*place).to_owned(),
@@ -299,6 +300,12 @@ fn describe(
         notes: published.notes.clone(),
         figures,
     })
+}
+
+/// What a named sweep's source says and how it fares.
+fn sweep_ledger(kind: &Kind) -> &'static [(Finding, &'static str, &'static str)] {
+    let named = kind.grid().and_then(|grid| named::find(&grid.name).ok()?);
+    named.map_or(&[], |chosen| chosen.sweep.ledger)
 }
 
 fn summary_of_run(run: &Run, name: &str) -> RunSummary {

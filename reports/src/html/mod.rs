@@ -2,6 +2,7 @@
 
 mod tables;
 
+use crate::export::{summary_csv, summary_json};
 use crate::format;
 use crate::judge::{Tally, verifies};
 use crate::row::Row;
@@ -43,6 +44,7 @@ fn page(study: &Study) -> Markup {
                     (figures(&study.figures))
                     (notes(&study.notes))
                     (ledger(study))
+                    (downloads(study))
                     (runs(study))
                     (measurements(study))
                 }
@@ -272,6 +274,36 @@ fn ledger(study: &Study) -> Markup {
             section {
                 h2 { "Against the source" }
                 (tables::ledger(&study.ledger))
+            }
+        }
+    }
+}
+
+/// All rows as files, inside the page: they stay with it wherever it goes.
+fn downloads(study: &Study) -> Markup {
+    let files = [
+        ("summary.csv", "text/csv", summary_csv(&study.rows).ok()),
+        (
+            "summary.json",
+            "application/json",
+            summary_json(&study.rows).ok(),
+        ),
+    ];
+    html! {
+        @if !study.rows.is_empty() {
+            section {
+                h2 { "Downloads" }
+                p {
+                    "All rows: "
+                    @for (name, kind, text) in files {
+                        @if let Some(text) = text {
+                            a download=(name) href={
+                                "data:" (kind) ";base64," (STANDARD.encode(text))
+                            } { (name) }
+                            " "
+                        }
+                    }
+                }
             }
         }
     }
