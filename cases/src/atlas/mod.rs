@@ -8,7 +8,7 @@
 //! dispersion of mesh and time step is no echo) and what comes back from the others. There is no
 //! window, no beam and no other wave in the way: at any angle the result is the solver's own reflection
 //! in a harmonic state, to rounding. A run of the solver in time, with mirror-symmetric sides and forces
-//! along a line, must find the same (`tests/tests/atlas.rs`).
+//! along a line, must find the same (`tests/tests/methods/atlas.rs`).
 //!
 //! Points rest and nodes keep their motion, whatever the scene says: a harmonic state belongs to a
 //! linear system.
