@@ -330,7 +330,14 @@ fn failures_and_gaps_are_shown() {
 #[test]
 fn nothing_is_fetched() {
     let page = report(&study());
-    for outside in ["<link", "<script", "src=\"http", "url(", "@import", "href=\"http"] {
+    for outside in [
+        "<link",
+        "<script",
+        "src=\"http",
+        "url(",
+        "@import",
+        "href=\"http",
+    ] {
         assert!(!page.contains(outside), "{outside}");
     }
 }
