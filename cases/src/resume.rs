@@ -157,7 +157,6 @@ mod tests {
     use super::*;
     use crate::frames::Frames;
     use crate::prepare::{Request, Target};
-    use crate::provenance;
     use crate::store::{Manifest, Store};
     use crate::sweep::Grid;
     use anechoic_solver::record::{Cost, Record, SeriesTable};
@@ -178,26 +177,17 @@ mod tests {
     fn stored(root: &Path, change: impl FnOnce(&mut Manifest)) -> Store {
         let store = Store::open(root, "compression-1d").unwrap();
         let prepared = prepared("gate");
-        let hash = prepared.hash();
-        let mut manifest = Manifest {
-            case: prepared.info.name.into(),
-            profile: prepared.profile.clone(),
-            method: prepared.method.clone(),
+        let mut record = Record {
             status: Status::Complete,
-            cost: Cost::default(),
-            provenance: provenance::of(&hash),
-            hash,
-            scored: None,
-        };
-        change(&mut manifest);
-        let record = Record {
-            status: manifest.status.clone(),
             receivers: SeriesTable::default(),
             energy: SeriesTable::default(),
             lines: Vec::new(),
             snapshots: Vec::new(),
             cost: Cost::default(),
         };
+        let mut manifest = Manifest::of(&prepared, &record);
+        change(&mut manifest);
+        record.status = manifest.status.clone();
         let run = Run {
             prepared,
             manifest,

@@ -4,7 +4,6 @@ use crate::error::CaseError;
 use crate::frames::{Frames, Sampling};
 use crate::prepare::Prepared;
 use crate::progress::Progress;
-use crate::provenance;
 use crate::resume::folder;
 use crate::store::{Manifest, Store};
 use anechoic_solver::record::{Cost, Record, SeriesTable, Status};
@@ -134,17 +133,7 @@ fn run_one(prepared: Prepared, sampling: Sampling, progress: &Progress) -> Run {
     record.cost.wall_s = wall_s;
     record.cost.cpu_s = cpu_s;
     record.cost.peak_bytes = memory.bytes_max;
-    let hash = prepared.hash();
-    let manifest = Manifest {
-        case: prepared.info.name.to_owned(),
-        profile: prepared.profile.clone(),
-        method: prepared.method.clone(),
-        status: record.status.clone(),
-        cost: record.cost.clone(),
-        provenance: provenance::of(&hash),
-        hash,
-        scored: None,
-    };
+    let manifest = Manifest::of(&prepared, &record);
     Run {
         prepared,
         manifest,

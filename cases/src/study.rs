@@ -18,17 +18,13 @@ use crate::runner::Run;
 use crate::store::{save_rows, write_file};
 use crate::sweep::named;
 use crate::timing;
-use anechoic_reports::convergence::Convergence;
 use anechoic_reports::export::{junit_xml, summary_csv, summary_json};
 use anechoic_reports::html;
 use anechoic_reports::plot::PlotError;
 use anechoic_reports::provenance::Provenance;
 use anechoic_reports::ranking::{Floor, Ranking};
 use anechoic_reports::row::Row;
-use anechoic_reports::stability::Stability;
-use anechoic_reports::study::{self as reports, Figure, Finding, LedgerEntry, RunSummary};
-use anechoic_reports::sweep::Sweep;
-use anechoic_reports::tradeoff::Tradeoff;
+use anechoic_reports::study::{self as reports, Figure, Finding, LedgerEntry, RunSummary, Upshot};
 use anechoic_solver::record::Status;
 pub use kind::Kind;
 use std::path::{Path, PathBuf};
@@ -49,14 +45,10 @@ pub struct Published {
     pub damaged: Vec<Damage>,
     /// All rows.
     pub rows: Vec<Row>,
-    /// Errors on several levels, where a scene was refined.
-    pub convergence: Option<Convergence>,
-    /// Methods at several points, where parameters were varied.
-    pub sweep: Option<Sweep>,
-    /// Error against cost, where that was asked for.
-    pub tradeoff: Option<Tradeoff>,
-    /// How runs at extremes end, where that was asked for.
-    pub stability: Option<Stability>,
+    /// What it is for.
+    pub kind: Kind,
+    /// What the runs make together, where that is more than a ranking.
+    pub upshot: Option<Upshot>,
     /// The runs' names, which tell them apart.
     pub names: Vec<String>,
     /// Methods by their echo; `None` when no echo ratio was measured.
@@ -79,13 +71,7 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
     let folder = study.folder.as_path();
     let results = folder.parent().unwrap_or(folder);
     let references = References::gather(&study.runs, &Library::of_results(results));
-    let Told {
-        mut judged,
-        convergence,
-        sweep,
-        tradeoff,
-        stability,
-    } = judge_study(&study, &references)?;
+    let (mut judged, upshot) = judge_study(&study, &references)?;
     take_in_damage(&study, &mut judged);
     for run in &study.runs {
         let own = judged.rows.iter().filter(|row| study.kind.owns(run, row));
@@ -107,12 +93,9 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         write_file(&folder.join(name), made.as_bytes())?;
     }
     let ranking = rank(&judged.rows);
-    let gallery = match (&convergence, &sweep, &tradeoff, &stability) {
-        (Some(convergence), ..) => pictures::draw_convergence(convergence),
-        (_, Some(sweep), ..) => pictures::draw_sweep(sweep),
-        (_, _, Some(tradeoff), _) => pictures::draw_tradeoff(tradeoff),
-        (.., Some(stability)) => pictures::draw_stability(stability),
-        _ => pictures::draw(&study.runs, &study.kind, &ranking, &references),
+    let gallery = match &upshot {
+        Some(upshot) => pictures::draw_upshot(upshot),
+        None => pictures::draw(&study.runs, &study.kind, &ranking, &references),
     };
     let mut notes = judged.notes;
     notes.extend(gallery.notes);
@@ -143,44 +126,31 @@ pub fn publish(study: Study) -> Result<Published, CaseError> {
         }
     };
     // Levels and points are not ranked.
-    let ranked = convergence.is_none()
-        && sweep.is_none()
-        && tradeoff.is_none()
-        && stability.is_none()
-        && ranking.methods.iter().any(|method| method.echo.is_some());
+    let ranked = upshot.is_none() && ranking.methods.iter().any(|method| method.echo.is_some());
     let published = Published {
         names: study.runs.iter().map(|run| study.kind.name(run)).collect(),
         report: folder.join("report.html"),
         runs: study.runs,
         damaged: study.damaged,
         rows: judged.rows,
-        convergence,
-        sweep,
-        tradeoff,
-        stability,
+        upshot,
+        kind: study.kind,
         ranking: ranked.then_some(ranking),
         reference_missing: judged.reference_missing,
         notes,
         animation,
     };
-    if let Some(page) = describe(&published, &study.kind, study.command, figures) {
+    if let Some(page) = describe(&published, study.command, figures) {
         write_file(&published.report, html::report(&page).as_bytes())?;
     }
     Ok(published)
 }
 
-/// What judging a study gives.
-#[derive(Default)]
-struct Told {
-    judged: Judged,
-    convergence: Option<Convergence>,
-    sweep: Option<Sweep>,
-    tradeoff: Option<Tradeoff>,
-    stability: Option<Stability>,
-}
-
 /// The rows of the runs that can be read, and what they make on levels or at points.
-fn judge_study(study: &Study, references: &References) -> Result<Told, CaseError> {
+fn judge_study(
+    study: &Study,
+    references: &References,
+) -> Result<(Judged, Option<Upshot>), CaseError> {
     Ok(match &study.kind {
         Kind::Convergence { over } => {
             let lost = study.damaged.first().map(|damage| {
@@ -188,11 +158,11 @@ fn judge_study(study: &Study, references: &References) -> Result<Told, CaseError
                 format!("a level is missing: {name}: {}", damaged(damage))
             });
             let (judged, convergence) = judge_levels(&study.runs, over, references, lost);
-            Told {
-                judged,
-                convergence,
-                ..Told::default()
-            }
+            (judged, convergence.map(Upshot::Convergence))
+        }
+        Kind::Sweep(grid) => {
+            let (judged, sweep) = judge_points(&study.runs, grid, references);
+            (judged, Some(Upshot::Sweep(sweep)))
         }
         Kind::Tradeoff(grid) => {
             let (mut judged, sweep) = judge_points(&study.runs, grid, references);
@@ -200,37 +170,15 @@ fn judge_study(study: &Study, references: &References) -> Result<Told, CaseError
             let (tradeoff, rows) = judge_trades(&study.runs, grid, &sweep, references, &timings)?;
             // What was asked comes first.
             judged.rows.splice(0..0, rows);
-            Told {
-                judged,
-                tradeoff: Some(tradeoff),
-                ..Told::default()
-            }
+            (judged, Some(Upshot::Tradeoff(tradeoff)))
         }
         Kind::Stability(grid) => {
-            let (stability, rows) = judge_stability(&study.runs, grid);
-            Told {
-                judged: Judged {
-                    rows,
-                    ..Judged::default()
-                },
-                stability: Some(stability),
-                ..Told::default()
-            }
-        }
-        Kind::Sweep(grid) => {
-            let (judged, sweep) = judge_points(&study.runs, grid, references);
-            Told {
-                judged,
-                sweep: Some(sweep),
-                ..Told::default()
-            }
+            let (judged, stability) = judge_stability(&study.runs, grid);
+            (judged, Some(Upshot::Stability(stability)))
         }
         Kind::Comparison | Kind::Ablation => {
             let runs: Vec<&Run> = study.runs.iter().collect();
-            Told {
-                judged: judge_runs(&runs, references),
-                ..Told::default()
-            }
+            (judge_runs(&runs, references), None)
         }
     })
 }
@@ -258,7 +206,6 @@ fn damaged(damage: &Damage) -> String {
 /// The report's content; none without runs.
 fn describe(
     published: &Published,
-    kind: &Kind,
     command: String,
     figures: Vec<Figure>,
 ) -> Option<reports::Study> {
@@ -271,10 +218,7 @@ fn describe(
         profile: first.manifest.profile.clone(),
         command,
         rows: published.rows.clone(),
-        convergence: published.convergence.clone(),
-        sweep: published.sweep.clone(),
-        tradeoff: published.tradeoff.clone(),
-        stability: published.stability.clone(),
+        upshot: published.upshot.clone(),
         ranking: published.ranking.clone(),
         runs: published
             .runs
@@ -285,10 +229,10 @@ fn describe(
                 published
                     .damaged
                     .iter()
-                    .map(|damage| summary_of_damage(damage, kind)),
+                    .map(|damage| summary_of_damage(damage, &published.kind)),
             )
             .collect(),
-        ledger: sweep_ledger(kind)
+        ledger: sweep_ledger(&published.kind)
             .iter()
             .chain(info.ledger)
             .map(|(finding, place, note)| LedgerEntry {

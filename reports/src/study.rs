@@ -28,18 +28,9 @@ pub struct Study {
     pub rows: Vec<Row>,
     /// The ranking, where methods were compared.
     pub ranking: Option<Ranking>,
-    /// Errors on several levels, where a scene was refined.
+    /// What its runs make together, where that is more than a ranking.
     #[serde(default)]
-    pub convergence: Option<Convergence>,
-    /// Methods at several points of their parameters, where those were varied.
-    #[serde(default)]
-    pub sweep: Option<Sweep>,
-    /// Error against cost, where that was asked for.
-    #[serde(default)]
-    pub tradeoff: Option<Tradeoff>,
-    /// How runs at extremes end, where that was asked for.
-    #[serde(default)]
-    pub stability: Option<Stability>,
+    pub upshot: Option<Upshot>,
     /// The runs, complete or not.
     pub runs: Vec<RunSummary>,
     /// What the case says about its source.
@@ -50,6 +41,20 @@ pub struct Study {
     /// Pictures; drawn anew from the records, so not stored.
     #[serde(skip)]
     pub figures: Vec<Figure>,
+}
+
+/// What the runs of a study make together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Upshot {
+    /// Errors on several levels, where a scene was refined.
+    Convergence(Convergence),
+    /// Methods at several points, where parameters were varied.
+    Sweep(Sweep),
+    /// Error against cost.
+    Tradeoff(Tradeoff),
+    /// How runs at extremes end.
+    Stability(Stability),
 }
 
 /// One run.

@@ -5,6 +5,7 @@ use crate::format;
 use crate::ranking::{Ranked, Ranking};
 use crate::row::{Row, Verdict};
 use crate::stability::{self, Stability};
+use crate::study::Upshot;
 use crate::sweep::{self, Sweep};
 use crate::tradeoff::{ADVICE, TRADES, Tradeoff, advice_cells, trade_cells};
 use anechoic_solver::Bill;
@@ -140,6 +141,16 @@ pub fn bill_table(bill: &Bill) -> String {
         ]);
     }
     finish(&table, "")
+}
+
+/// What the runs of a study make together.
+pub fn upshot_table(upshot: &Upshot) -> String {
+    match upshot {
+        Upshot::Convergence(convergence) => convergence_table(convergence),
+        Upshot::Sweep(sweep) => sweep_table(sweep),
+        Upshot::Tradeoff(tradeoff) => tradeoff_table(tradeoff),
+        Upshot::Stability(stability) => stability_table(stability),
+    }
 }
 
 /// Errors on all levels with the orders they fall with.

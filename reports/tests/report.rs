@@ -10,7 +10,7 @@ use anechoic_reports::judge::{Measurement, cost_measurements, judge};
 use anechoic_reports::plot::{BarPlot, Bars, Line, SpaceTimePlot, TracePanel, TracePlot};
 use anechoic_reports::provenance::Provenance;
 use anechoic_reports::ranking::{Floor, Ranking};
-use anechoic_reports::study::{Figure, Finding, LedgerEntry, RunSummary, Study};
+use anechoic_reports::study::{Figure, Finding, LedgerEntry, RunSummary, Study, Upshot};
 use anechoic_reports::table::convergence_table;
 use anechoic_solver::record::{Cost, SpaceTime, Status};
 
@@ -244,10 +244,7 @@ fn study() -> Study {
         command: "anechoic compare compression-1d --profile quick".to_owned(),
         ranking: Some(Ranking::from_rows(&rows, "echo_ratio", Some(floor))),
         rows,
-        convergence: Some(convergence()),
-        sweep: None,
-        tradeoff: None,
-        stability: None,
+        upshot: Some(Upshot::Convergence(convergence())),
         runs,
         ledger: vec![
             LedgerEntry {
@@ -363,10 +360,7 @@ fn an_empty_study_claims_nothing() {
     let empty = Study {
         rows: vec![],
         ranking: None,
-        convergence: None,
-        sweep: None,
-        tradeoff: None,
-        stability: None,
+        upshot: None,
         runs: vec![],
         ledger: vec![],
         notes: vec![],
@@ -385,7 +379,7 @@ fn a_study_survives_storage_but_for_its_pictures() {
     let back: Study = serde_json::from_str(&text).expect("our own output");
     assert_eq!(back.runs, study.runs);
     assert_eq!(back.ranking, study.ranking);
-    assert_eq!(back.convergence, study.convergence);
+    assert_eq!(back.upshot, study.upshot);
     assert_eq!(back.rows.len(), study.rows.len());
     assert!(back.figures.is_empty());
 }

@@ -18,6 +18,29 @@ use anechoic_solver::problem::{
 use anechoic_solver::record::Record;
 use anechoic_solver::wavelet::{Pulse, Wavelet};
 
+/// All bases with all masses.
+pub const KINDS: [(BasisKind, MassKind); 6] = [
+    (BasisKind::Linear, MassKind::Lumped),
+    (BasisKind::Linear, MassKind::Consistent),
+    (BasisKind::Gimp, MassKind::Lumped),
+    (BasisKind::Gimp, MassKind::Consistent),
+    (BasisKind::Bspline, MassKind::Lumped),
+    (BasisKind::Bspline, MassKind::Consistent),
+];
+
+/// Thickness (m) of [`ten_cells`].
+pub const DEPTH: f64 = 200.0;
+
+/// Reflection that [`ten_cells`] aims at.
+pub const REFLECTION: f64 = 1e-4;
+
+/// The true layer of ten cells of 20 m.
+pub fn ten_cells() -> SideMethod {
+    SideMethod::new("pml")
+        .with("thickness_m", DEPTH)
+        .with("reflection", REFLECTION)
+}
+
 /// Lets every step pass.
 #[derive(Debug)]
 pub struct Unwatched;

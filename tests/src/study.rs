@@ -5,7 +5,6 @@ use anechoic::commands::{Finished, Options, compare, show};
 use anechoic::judge::judge_runs;
 use anechoic::judge::references::References;
 use anechoic::prepare::Request;
-use anechoic::provenance;
 use anechoic::runner::Run;
 use anechoic::store::Manifest;
 use anechoic_reports::row::{Row, Verdict};
@@ -110,19 +109,9 @@ pub fn altered(request: &Request, method: Option<&str>, change: impl Fn(&mut Pro
     let mut problem = prepared.scene.problem();
     change(&mut problem);
     let record = solved(&problem);
-    let hash = prepared.hash();
     Run {
         frames: Default::default(),
-        manifest: Manifest {
-            case: prepared.info.name.to_owned(),
-            profile: prepared.profile.clone(),
-            method: prepared.method.clone(),
-            status: record.status.clone(),
-            cost: record.cost.clone(),
-            provenance: provenance::of(&hash),
-            hash,
-            scored: None,
-        },
+        manifest: Manifest::of(&prepared, &record),
         prepared,
         record,
     }

@@ -9,13 +9,13 @@ use crate::field::short;
 use crate::prepare::Prepared;
 use crate::scene::{Overlay, SceneInfo};
 use crate::store;
+use crate::study::Kind;
 use anechoic_reports::export::summary_json;
 use anechoic_reports::format;
 use anechoic_reports::judge::Tally;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_reports::table::{
-    bill_table, convergence_table, measurement_table, ranking_table, stability_table, sweep_table,
-    tradeoff_table, verdict_table,
+    bill_table, measurement_table, ranking_table, upshot_table, verdict_table,
 };
 use anechoic_solver::boundary::METHODS;
 use anechoic_solver::problem::Problem;
@@ -275,7 +275,7 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
     for finished in studies {
         let tally = Tally::of(&finished.rows);
         // Of a map, claims that hold are no news.
-        let quiet = finished.study.stability.is_some();
+        let quiet = matches!(finished.study.kind, Kind::Stability(_));
         let told = finished
             .rows
             .iter()
@@ -289,20 +289,8 @@ pub fn results(studies: &[Finished], format: Format) -> Result<String, CaseError
             "{} pass, {} fail, {} not evaluated\n",
             tally.pass, tally.fail, tally.not_evaluated
         );
-        match (&finished.study.convergence, &finished.study.ranking) {
-            (Some(convergence), _) => text += &convergence_table(convergence),
-            (None, None) if finished.study.tradeoff.is_some() => {
-                let tradeoff = finished.study.tradeoff.iter();
-                text.extend(tradeoff.map(tradeoff_table));
-            }
-            (None, None) if finished.study.stability.is_some() => {
-                let stability = finished.study.stability.iter();
-                text.extend(stability.map(stability_table));
-            }
-            (None, None) if finished.study.sweep.is_some() => {
-                let sweep = finished.study.sweep.iter();
-                text.extend(sweep.map(sweep_table));
-            }
+        match (&finished.study.upshot, &finished.study.ranking) {
+            (Some(upshot), _) => text += &upshot_table(upshot),
             (_, Some(ranking)) if finished.study.runs.len() > 1 => text += &ranking_table(ranking),
             _ => text += &measurement_table(&finished.rows),
         }

@@ -124,13 +124,13 @@ impl Finished {
     /// The exit code: failed, stopped or damaged runs, then failed claims, then claims without a reference or
     /// none of which could be judged.
     pub fn exit_code(&self) -> u8 {
-        let ended = |run: &crate::runner::Run| run.record.status == Status::Complete;
         let failed = |row: &Row| row.verdict == Some(Verdict::Fail);
-        // At extremes a run that fails with an error that says so is an answer.
-        let answered = |run: &crate::runner::Run| {
-            ended(run) || (self.study.stability.is_some() && run.record.status != Status::Cancelled)
+        let ended = |run: &crate::runner::Run| match run.record.status {
+            Status::Complete => true,
+            Status::Cancelled => false,
+            Status::Failed(_) => self.study.kind.failure_is_answer(),
         };
-        if !self.study.damaged.is_empty() || !self.study.runs.iter().all(answered) {
+        if !self.study.damaged.is_empty() || !self.study.runs.iter().all(ended) {
             exit::SOLVER_FAILED
         } else if self.rows.iter().any(failed) {
             exit::GATE_FAILED

@@ -1,7 +1,7 @@
 //! How runs at extremes end.
 
 use super::growth::unloaded;
-use super::{energies, rows::rows_of};
+use super::{Judged, energies, rows::rows_of};
 use crate::runner::Run;
 use crate::sweep::{Grid, Point};
 use anechoic_reference::claim::{Accept, Claim, Evidence};
@@ -16,7 +16,7 @@ use anechoic_solver::problem::{PointMode, Problem, Scheme, Transfer};
 use anechoic_solver::record::Status;
 
 /// Outcomes of all runs, and their rows: rates, costs, and what theory claims.
-pub fn judge_stability(runs: &[Run], grid: &Grid) -> (Stability, Vec<Row>) {
+pub fn judge_stability(runs: &[Run], grid: &Grid) -> (Judged, Stability) {
     let (mut stability, mut rows) = (Stability::default(), Vec::new());
     for part in &grid.parts {
         let points = part.points.iter().map(|point| at(point, runs, &mut rows));
@@ -25,7 +25,11 @@ pub fn judge_stability(runs: &[Run], grid: &Grid) -> (Stability, Vec<Row>) {
             points: points.collect(),
         });
     }
-    (stability, rows)
+    let judged = Judged {
+        rows,
+        ..Judged::default()
+    };
+    (judged, stability)
 }
 
 fn at(point: &Point, runs: &[Run], rows: &mut Vec<Row>) -> StabilityPoint {

@@ -4,14 +4,10 @@ pub mod animation;
 mod fields;
 mod levels;
 mod points;
+mod stability;
 mod trades;
 
-pub use levels::draw_convergence;
-pub use points::draw_sweep;
-pub use trades::draw_tradeoff;
 
-use anechoic_reports::plot::stability_map;
-use anechoic_reports::stability::Stability;
 
 use crate::judge::references::References;
 use crate::judge::{traces, traces_of};
@@ -26,6 +22,7 @@ use anechoic_reports::plot::{
     BarPlot, Bars, Drawing, EchoPlot, EnergyPlot, Line, PlotError, TracePanel, TracePlot,
 };
 use anechoic_reports::ranking::Ranking;
+use anechoic_reports::study::Upshot;
 use thiserror::Error;
 
 /// The reference's name in pictures.
@@ -84,20 +81,14 @@ pub fn missing(name: &str, reason: &dyn std::fmt::Display) -> String {
     format!("the picture `{name}` could not be made: {reason}")
 }
 
-/// The map of a study of stability.
-pub fn draw_stability(stability: &Stability) -> Gallery {
-    let mut gallery = Gallery::default();
-    let made = stability_map(stability).map(|drawing| {
-        Some(Picture {
-            name: "stability".into(),
-            title: "Which methods stay stable".into(),
-            caption: "Growth rate of the total energy over the second half of each run, or how it ended. Everything but the extreme is the scene's own.".into(),
-            drawing,
-            raster: false,
-        })
-    });
-    gallery.add("stability", made.map_err(PictureError::from));
-    gallery
+/// The pictures of what the runs of a study make together.
+pub fn draw_upshot(upshot: &Upshot) -> Gallery {
+    match upshot {
+        Upshot::Convergence(convergence) => levels::draw_convergence(convergence),
+        Upshot::Sweep(sweep) => points::draw_sweep(sweep),
+        Upshot::Tradeoff(tradeoff) => trades::draw_tradeoff(tradeoff),
+        Upshot::Stability(stability) => stability::draw_stability(stability),
+    }
 }
 
 /// All pictures that the runs allow. One that cannot be made costs a note, not the others: the runs

@@ -16,7 +16,8 @@ mod table;
 
 use crate::error::CaseError;
 use crate::frames::Frames;
-use crate::prepare::{Request, Target};
+use crate::prepare::{Prepared, Request, Target};
+use crate::provenance;
 use crate::runner::Run;
 use crate::scene_text;
 use anechoic_reports::provenance::Provenance;
@@ -68,6 +69,21 @@ pub struct Scored {
 }
 
 impl Manifest {
+    /// Of a scene's record, made by this program now.
+    pub fn of(prepared: &Prepared, record: &Record) -> Self {
+        let hash = prepared.hash();
+        Manifest {
+            case: prepared.info.name.to_owned(),
+            profile: prepared.profile.clone(),
+            method: prepared.method.clone(),
+            status: record.status.clone(),
+            cost: record.cost.clone(),
+            provenance: provenance::of(&hash),
+            hash,
+            scored: None,
+        }
+    }
+
     /// The method whose claims judge the run; none for another program's series of which nobody said
     /// what they model.
     pub fn judged_as(&self) -> Option<&str> {

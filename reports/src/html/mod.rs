@@ -7,8 +7,11 @@ use crate::format;
 use crate::judge::{Tally, verifies};
 use crate::row::Row;
 use crate::stability::troubles;
-use crate::study::{Figure, Image, Study};
-use crate::tradeoff::{ADVICE, TRADES, advice_cells, trade_cells};
+use crate::convergence::Convergence;
+use crate::stability::Stability;
+use crate::study::{Figure, Image, Study, Upshot};
+use crate::sweep::Sweep;
+use crate::tradeoff::{ADVICE, TRADES, Tradeoff, advice_cells, trade_cells};
 use anechoic_solver::record::Status;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -37,10 +40,7 @@ fn page(study: &Study) -> Markup {
                     (unfinished(study))
                     (verdicts(study))
                     (ranking(study))
-                    (tradeoff(study))
-                    (stable(study))
-                    (convergence(study))
-                    (sweep(study))
+                    (upshot(study))
                     (figures(&study.figures))
                     (notes(&study.notes))
                     (ledger(study))
@@ -144,86 +144,88 @@ fn ranking(study: &Study) -> Markup {
     }
 }
 
-fn convergence(study: &Study) -> Markup {
+fn upshot(study: &Study) -> Markup {
+    match &study.upshot {
+        None => html! {},
+        Some(Upshot::Convergence(it)) => convergence(it),
+        Some(Upshot::Sweep(it)) => sweep(it),
+        Some(Upshot::Tradeoff(it)) => tradeoff(it),
+        Some(Upshot::Stability(it)) => stable(it),
+    }
+}
+
+fn convergence(convergence: &Convergence) -> Markup {
     html! {
-        @if let Some(convergence) = &study.convergence {
-            section {
-                h2 { "Convergence over " code { (convergence.over) } }
-                p.soft {
-                    "Errors of " code { (convergence.method) } " on each level, the order they fall \
-                     with (least squares, with its 95 % interval), and between neighbours."
-                }
-                (tables::convergence(convergence))
+        section {
+            h2 { "Convergence over " code { (convergence.over) } }
+            p.soft {
+                "Errors of " code { (convergence.method) } " on each level, the order they fall \
+                 with (least squares, with its 95 % interval), and between neighbours."
             }
+            (tables::convergence(convergence))
         }
     }
 }
 
-fn tradeoff(study: &Study) -> Markup {
+fn tradeoff(tradeoff: &Tradeoff) -> Markup {
     html! {
-        @if let Some(tradeoff) = &study.tradeoff {
-            section {
-                h2 { "What an echo takes" }
-                p.soft {
-                    "The cheapest run of each method whose mean echo is small enough, the cheapest \
-                     method first. CPU time was measured apart from the runs for accuracy; over \
-                     extended: over that of the same mesh extended until nothing comes back."
-                }
-                (tables::texts(&ADVICE, &advice_cells(tradeoff), 3))
-                @if let Some(share) = tradeoff.awake_share {
-                    p.soft {
-                        "Waves reach " (format::number(100.0 * share)) " % of the extended mesh's \
-                         cell-steps; a solver whose cells sleep until then could save the rest, so \
-                         that all ratios above would be larger by up to "
-                        (format::number(1.0 / share)) ". This is counted, not timed."
-                    }
-                }
-                h3 { "All runs" }
-                p.soft {
-                    "On the front no other run leaves less echo in as little time. L/wavelength: \
-                     thickness over the length of compressional waves, "
-                    (format::short(tradeoff.wavelengths_m[0])) " m; shear waves have "
-                    (format::short(tradeoff.wavelengths_m[1])) " m."
-                }
-                (tables::texts(&TRADES, &trade_cells(tradeoff), 3))
+        section {
+            h2 { "What an echo takes" }
+            p.soft {
+                "The cheapest run of each method whose mean echo is small enough, the cheapest \
+                 method first. CPU time was measured apart from the runs for accuracy; over \
+                 extended: over that of the same mesh extended until nothing comes back."
             }
+            (tables::texts(&ADVICE, &advice_cells(tradeoff), 3))
+            @if let Some(share) = tradeoff.awake_share {
+                p.soft {
+                    "Waves reach " (format::number(100.0 * share)) " % of the extended mesh's \
+                     cell-steps; a solver whose cells sleep until then could save the rest, so \
+                     that all ratios above would be larger by up to "
+                    (format::number(1.0 / share)) ". This is counted, not timed."
+                }
+            }
+            h3 { "All runs" }
+            p.soft {
+                "On the front no other run leaves less echo in as little time. L/wavelength: \
+                 thickness over the length of compressional waves, "
+                (format::short(tradeoff.wavelengths_m[0])) " m; shear waves have "
+                (format::short(tradeoff.wavelengths_m[1])) " m."
+            }
+            (tables::texts(&TRADES, &trade_cells(tradeoff), 3))
         }
     }
 }
 
-fn stable(study: &Study) -> Markup {
+fn stable(stability: &Stability) -> Markup {
     html! {
-        @if let Some(stability) = &study.stability {
-            section {
-                h2 { "Which methods stay stable" }
-                p.soft {
-                    "Growth rate of the total energy over the second half of each run; 0 is within \
-                     rounding."
-                }
-                @for part in &stability.parts {
-                    h3 { (part.title) }
-                    (tables::outcomes(stability, part))
-                }
-                h3 { "What is not stable, and why" }
-                (tables::texts(&["extreme", "method", "outcome"], &troubles(stability), 3))
+        section {
+            h2 { "Which methods stay stable" }
+            p.soft {
+                "Growth rate of the total energy over the second half of each run; 0 is within \
+                 rounding."
             }
+            @for part in &stability.parts {
+                h3 { (part.title) }
+                (tables::texts(&crate::stability::head(stability), &crate::stability::cells(stability, part), 1))
+            }
+            h3 { "What is not stable, and why" }
+            (tables::texts(&["extreme", "method", "outcome"], &troubles(stability), 3))
         }
     }
 }
 
-fn sweep(study: &Study) -> Markup {
+fn sweep(sweep: &Sweep) -> Markup {
     html! {
-        @if let Some(sweep) = &study.sweep {
-            section {
-                h2 { "Points" }
-                @for part in &sweep.parts {
-                    h3 { (part.title) }
-                    p.soft {
-                        "Echo ratio of each group of receivers (mean), and of all; displacement (m) at "
-                        code { (part.late_at) } " once echoes are looked for."
-                    }
-                    (tables::sweep(part))
+        section {
+            h2 { "Points" }
+            @for part in &sweep.parts {
+                h3 { (part.title) }
+                p.soft {
+                    "Echo ratio of each group of receivers (mean), and of all; displacement (m) at "
+                    code { (part.late_at) } " once echoes are looked for."
                 }
+                (tables::texts(&crate::sweep::head(part), &crate::sweep::cells(part), 2))
             }
         }
     }

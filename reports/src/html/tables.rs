@@ -6,9 +6,7 @@ use crate::convergence::Convergence;
 use crate::format;
 use crate::ranking::Ranking;
 use crate::row::{Row, Verdict};
-use crate::stability::{self, Stability, StabilityPart};
 use crate::study::{Finding, LedgerEntry, RunSummary};
-use crate::sweep::{self, SweepPart};
 use crate::table::{convergence_cells, convergence_head, ranking_cells, value_text, verdict_name};
 use anechoic_solver::record::Status;
 use maud::{Markup, html};
@@ -128,9 +126,9 @@ pub(super) fn convergence(convergence: &Convergence) -> Markup {
 }
 
 /// A table of texts; columns from `numbers` on are aligned as numbers.
-pub(super) fn texts<const N: usize>(
-    head: &[&str; N],
-    rows: &[[String; N]],
+pub(super) fn texts<R: AsRef<[String]>>(
+    head: &[impl AsRef<str>],
+    rows: &[R],
     numbers: usize,
 ) -> Markup {
     html! {
@@ -139,65 +137,15 @@ pub(super) fn texts<const N: usize>(
                 thead {
                     tr {
                         @for (i, head) in head.iter().enumerate() {
-                            th.number[i >= numbers] { (head) }
+                            th.number[i >= numbers] { (head.as_ref()) }
                         }
                     }
                 }
                 tbody {
                     @for row in rows {
                         tr {
-                            @for (i, cell) in row.iter().enumerate() {
+                            @for (i, cell) in row.as_ref().iter().enumerate() {
                                 td.number[i >= numbers].name[i < numbers] { (cell) }
-                            }
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-pub(super) fn outcomes(stability: &Stability, part: &StabilityPart) -> Markup {
-    html! {
-        div.scroll {
-            table {
-                thead {
-                    tr {
-                        @for (i, head) in stability::head(stability).iter().enumerate() {
-                            th.number[i > 0] { (head) }
-                        }
-                    }
-                }
-                tbody {
-                    @for row in stability::cells(stability, part) {
-                        tr {
-                            @for (i, cell) in row.iter().enumerate() {
-                                td.number[i > 0].name[i == 0] { (cell) }
-                            }
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-pub(super) fn sweep(part: &SweepPart) -> Markup {
-    html! {
-        div.scroll {
-            table {
-                thead {
-                    tr {
-                        @for (i, head) in sweep::head(part).iter().enumerate() {
-                            th.number[i > 1] { (head) }
-                        }
-                    }
-                }
-                tbody {
-                    @for row in sweep::cells(part) {
-                        tr {
-                            @for (i, cell) in row.iter().enumerate() {
-                                td.number[i > 1].name[i < 2] { (cell) }
                             }
                         }
                     }

@@ -16,16 +16,7 @@ use anechoic_solver::problem::{PointMode, Problem, Transfer};
 use anechoic_solver::record::Record;
 use anechoic_solver::setup;
 use anechoic_tests::twin::{Broken, Twin};
-use anechoic_tests::{half_space, solved, worst_echo};
-
-const DEPTH: f64 = 200.0;
-const REFLECTION: f64 = 1e-4;
-
-fn pml() -> SideMethod {
-    SideMethod::new("pml")
-        .with("thickness_m", DEPTH)
-        .with("reflection", REFLECTION)
-}
+use anechoic_tests::{DEPTH, REFLECTION, ten_cells, half_space, solved, worst_echo};
 
 fn frozen(layer: SideMethod) -> Problem<2> {
     half_space(layer, PointMode::Frozen, Transfer::Keep)
@@ -62,14 +53,14 @@ fn twin_run(problem: &Problem<2>, broken: Broken) -> Record {
 #[test]
 fn ten_cells_leave_little_echo_in_frozen_and_moving_points() {
     let reference = solved(&frozen(SideMethod::new("extended")));
-    let echo = worst_echo(&solved(&frozen(pml())), &reference);
+    let echo = worst_echo(&solved(&frozen(ten_cells())), &reference);
     println!(
         "frozen, 10 cells: {:.2} % at the worst receiver",
         100.0 * echo
     );
     assert!(echo < MOST_ECHO);
     let reference = solved(&moving(SideMethod::new("extended")));
-    let echo = worst_echo(&solved(&moving(pml())), &reference);
+    let echo = worst_echo(&solved(&moving(ten_cells())), &reference);
     println!(
         "moving (affine, layer at rest), 10 cells: {:.2} %",
         100.0 * echo
@@ -89,7 +80,7 @@ fn thicker_layers_leave_less() {
 
 #[test]
 fn a_second_implementation_agrees() {
-    let problem = frozen(pml());
+    let problem = frozen(ten_cells());
     let difference = worst_echo(&twin_run(&problem, Broken::Nothing), &solved(&problem));
     println!("solver's layer against the twin: {difference:.1e}");
     assert!(difference < TWINS_DIFFER);
@@ -98,7 +89,7 @@ fn a_second_implementation_agrees() {
 #[test]
 fn every_break_of_the_layer_fails_a_gate() {
     let reference = solved(&frozen(SideMethod::new("extended")));
-    let healthy = solved(&frozen(pml()));
+    let healthy = solved(&frozen(ten_cells()));
     for (broken, echoes) in [
         (Broken::SignOfMemory, true),
         (Broken::LaggedMemory, true),
@@ -106,7 +97,7 @@ fn every_break_of_the_layer_fails_a_gate() {
         // too small a jump for the echo to tell; the second implementation does
         (Broken::ShiftedProfile, false),
     ] {
-        let record = twin_run(&frozen(pml()), broken);
+        let record = twin_run(&frozen(ten_cells()), broken);
         let echo = worst_echo(&record, &reference);
         let difference = worst_echo(&record, &healthy);
         println!(
@@ -124,7 +115,7 @@ fn every_break_of_the_layer_fails_a_gate() {
             "{broken:?} passes with {difference}"
         );
     }
-    let mut one_side_gone = frozen(pml());
+    let mut one_side_gone = frozen(ten_cells());
     one_side_gone.sides[0][0] = SideMethod::new("fixed");
     let echo = worst_echo(&solved(&one_side_gone), &reference);
     assert!(echo > 0.1, "one side removed passes with {echo}");
@@ -142,7 +133,7 @@ fn growth(record: &Record) -> [f64; 2] {
 
 #[test]
 fn a_hundred_seconds_do_not_make_the_true_layer_grow() {
-    let mut problem = frozen(pml());
+    let mut problem = frozen(ten_cells());
     problem.end_time = 100.0;
     problem.probes.energy_every = Some(20);
     let record = solved(&problem);
@@ -156,14 +147,14 @@ fn a_hundred_seconds_do_not_make_the_true_layer_grow() {
 #[test]
 fn flip_makes_the_true_layer_grow() {
     // a regression of a finding: the motion's filter acts as more mass, which the damping lacks
-    let layer = pml().with_choice("with_flip", "force");
+    let layer = ten_cells().with_choice("with_flip", "force");
     let mut problem = half_space(layer, PointMode::Moving, Transfer::Flip);
     problem.end_time = 6.0;
     let outcome = anechoic_solver::solve(&problem, &anechoic_tests::Unwatched).unwrap();
     let diverged = outcome.error.is_some();
     println!("diverged: {diverged}");
     assert!(diverged || growth(&outcome.record)[0] > 0.0);
-    assert!(setup::model(&half_space(pml(), PointMode::Moving, Transfer::Flip)).is_err());
+    assert!(setup::model(&half_space(ten_cells(), PointMode::Moving, Transfer::Flip)).is_err());
 }
 
 #[test]

@@ -14,38 +14,17 @@ use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::linear::Moment;
 use anechoic_solver::physics::model::Model;
-use anechoic_solver::problem::BasisKind::{self, Bspline, Gimp, Linear};
-use anechoic_solver::problem::MassKind::{self, Consistent, Lumped};
-use anechoic_solver::problem::{Drive, PointMode, Problem, Transfer};
+use anechoic_solver::problem::{BasisKind, Drive, MassKind, PointMode, Problem, Transfer};
 use anechoic_solver::record::Record;
 use anechoic_solver::setup;
 use anechoic_solver::tensor::Vector;
 use anechoic_solver::time::{ForceScale, Motion, Rates, System};
 use anechoic_solver::wavelet::Wavelet;
 use anechoic_tests::twin::{Broken, Twin};
-use anechoic_tests::{half_space, solved, worst_echo};
-
-const KINDS: [(BasisKind, MassKind); 6] = [
-    (Linear, Lumped),
-    (Linear, Consistent),
-    (Gimp, Lumped),
-    (Gimp, Consistent),
-    (Bspline, Lumped),
-    (Bspline, Consistent),
-];
-
-const DEPTH: f64 = 200.0;
-const REFLECTION: f64 = 1e-4;
-
-/// Ten cells.
-fn pml() -> SideMethod {
-    SideMethod::new("pml")
-        .with("thickness_m", DEPTH)
-        .with("reflection", REFLECTION)
-}
+use anechoic_tests::{DEPTH, REFLECTION, ten_cells, KINDS, half_space, solved, worst_echo};
 
 fn following() -> SideMethod {
-    pml().with_choice("static_load", "follow")
+    ten_cells().with_choice("static_load", "follow")
 }
 
 fn frozen(layer: SideMethod, wavelet: Wavelet) -> Problem<2> {
@@ -66,7 +45,7 @@ fn with(mut problem: Problem<2>, wavelet: Wavelet) -> Problem<2> {
 
 /// A mesh of a few cells, all three layers, with a shift of 2/s.
 fn tiny((basis, mass): (BasisKind, MassKind)) -> Problem<2> {
-    let layer = pml().with("thickness_m", 60.0).with("alpha_per_s", 2.0);
+    let layer = ten_cells().with("thickness_m", 60.0).with("alpha_per_s", 2.0);
     let mut problem = half_space(layer, PointMode::Frozen, Transfer::Keep);
     (problem.target.lower, problem.target.upper) = ([0.0, -60.0], [80.0, 0.0]);
     (problem.basis, problem.mass) = (basis, mass);
@@ -268,7 +247,7 @@ const MOST_ERROR: f64 = 0.04;
 fn the_echo_of_a_ricker_wavelet_is_unchanged() {
     let run = |layer| solved(&frozen(layer, Wavelet::Ricker));
     let reference = run(SideMethod::new("extended"));
-    let (plain, shifted) = (run(pml()), run(of_a_long_run()));
+    let (plain, shifted) = (run(ten_cells()), run(of_a_long_run()));
     let change = worst_echo(&shifted, &plain);
     let [plain, shifted] = [plain, shifted].map(|record| worst_echo(&record, &reference));
     println!("echo {plain:.5}, with a shift {shifted:.5}; series differ by {change:.5}");
@@ -278,7 +257,7 @@ fn the_echo_of_a_ricker_wavelet_is_unchanged() {
 
 /// With the shift of a run of 20 s.
 fn of_a_long_run() -> SideMethod {
-    pml().with("alpha_per_s", 0.23)
+    ten_cells().with("alpha_per_s", 0.23)
 }
 
 #[test]
@@ -290,7 +269,7 @@ fn moving_points_see_the_same_shift() {
             problem.end_time = 2.0;
             solved(&problem)
         };
-        worst_echo(&run(following()), &run(pml()))
+        worst_echo(&run(following()), &run(ten_cells()))
     };
     let frozen = change(PointMode::Frozen, Transfer::Keep);
     let moving = change(PointMode::Moving, Transfer::Affine);
@@ -301,8 +280,8 @@ fn moving_points_see_the_same_shift() {
 #[test]
 fn without_a_shift_nothing_changes() {
     let run = |layer| solved(&frozen(layer, Wavelet::Sine)).receivers;
-    let plain = run(pml());
-    assert_eq!(run(pml().with("alpha_per_s", 0.0)), plain);
+    let plain = run(ten_cells());
+    assert_eq!(run(ten_cells().with("alpha_per_s", 0.0)), plain);
     assert_eq!(run(following().with("alpha_per_s", 0.0)), plain);
     assert_ne!(run(following()), plain);
 }
@@ -310,10 +289,10 @@ fn without_a_shift_nothing_changes() {
 #[test]
 fn a_layer_has_one_shift_on_all_its_sides() {
     for (other, field) in [
-        (pml().with("alpha_per_s", 0.1), "alpha_per_s"),
+        (ten_cells().with("alpha_per_s", 0.1), "alpha_per_s"),
         (following(), "static_load"),
     ] {
-        let mut problem = frozen(pml(), Wavelet::Sine);
+        let mut problem = frozen(ten_cells(), Wavelet::Sine);
         problem.sides[1][0] = other;
         let error = setup::model(&problem).map(|_| ()).unwrap_err().to_string();
         assert!(

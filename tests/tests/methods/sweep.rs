@@ -5,7 +5,8 @@
 use anechoic::commands::{self, Finished, Options};
 use anechoic::error::exit;
 use anechoic_reports::row::{Row, Verdict};
-use anechoic_reports::stability::Outcome;
+use anechoic_reports::stability::{Outcome, Stability};
+use anechoic_reports::study::Upshot;
 use anechoic_reports::tradeoff::Standing;
 use anechoic_tests::study::NARROW;
 use std::path::Path;
@@ -123,7 +124,9 @@ fn advice_in_a_column_is_the_dashpot() {
         commands::execute(commands::plan_tradeoff(&options).unwrap(), &options).unwrap()
     };
     let finished = with_repeats(1);
-    let study = finished.study.tradeoff.as_ref().unwrap();
+    let Some(Upshot::Tradeoff(study)) = &finished.study.upshot else {
+        panic!("error was set against cost");
+    };
     let ten = &study.advice[0];
     let of = |method: &str| {
         let found = ten.of_methods.iter().find(|(name, _)| name == method);
@@ -165,10 +168,17 @@ fn advice_in_a_column_is_the_dashpot() {
     );
 }
 
+/// The map of a finished study.
+fn map(finished: &Finished) -> &Stability {
+    match &finished.study.upshot {
+        Some(Upshot::Stability(map)) => map,
+        _ => panic!("all were driven to extremes"),
+    }
+}
+
 /// How a method ended at an extreme.
 fn outcome<'a>(finished: &'a Finished, method: &str, label: &str) -> &'a Outcome {
-    let study = finished.study.stability.as_ref().unwrap();
-    let mut points = study.parts.iter().flat_map(|part| &part.points);
+    let mut points = map(finished).parts.iter().flat_map(|part| &part.points);
     let point = points.find(|point| point.label == label);
     let point = point.unwrap_or_else(|| panic!("no extreme {label}"));
     point.outcome(method).unwrap()
@@ -240,8 +250,7 @@ fn what_grows_is_found_and_what_is_refused_is_named() {
             ),
         }
     }
-    let study = finished.study.stability.as_ref().unwrap();
-    let all = study.parts.iter().flat_map(|part| &part.points);
+    let all = map(&finished).parts.iter().flat_map(|part| &part.points);
     for (method, ended) in all.flat_map(|point| &point.outcomes) {
         assert!(!matches!(ended, Outcome::Open(_)), "{method}: {ended:?}");
         if let Outcome::Diverged(why) | Outcome::NotConverged(why) | Outcome::Refused(why) = ended {

@@ -20,16 +20,7 @@ use anechoic_solver::setup;
 use anechoic_solver::tensor::Vector;
 use anechoic_solver::time::newmark::Newmark;
 use anechoic_solver::time::{Integrator, Motion, System};
-use anechoic_tests::{block, half_space, solved, worst_echo};
-
-const KINDS: [(BasisKind, MassKind); 6] = [
-    (Linear, Lumped),
-    (Linear, Consistent),
-    (Gimp, Lumped),
-    (Gimp, Consistent),
-    (Bspline, Lumped),
-    (Bspline, Consistent),
-];
+use anechoic_tests::{KINDS, block, half_space, solved, worst_echo};
 
 const MOMENT: Moment = Moment {
     step: 1,

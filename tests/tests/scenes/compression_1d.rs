@@ -6,6 +6,7 @@ use anechoic::commands::{Finished, Options, converge, report, run};
 use anechoic::error::exit;
 use anechoic::judge::REFERENCE;
 use anechoic::over::Over;
+use anechoic_reports::study::Upshot;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_tests::study::{claims, compared, failing, narrow_column, print_claims, value};
 use std::path::Path;
@@ -98,12 +99,10 @@ fn refined(method: &str, wavelet: &str) -> Finished {
         .set("receivers.B.x_m=2");
     let over = Over::parse("grid.h_m=4,2,1,0.5").expect("levels");
     let finished = converge(&options, &over).unwrap_or_else(|error| panic!("{error}"));
-    let levels = &finished
-        .study
-        .convergence
-        .as_ref()
-        .expect("it was refined")
-        .levels;
+    let Some(Upshot::Convergence(convergence)) = &finished.study.upshot else {
+        panic!("it was refined");
+    };
+    let levels = &convergence.levels;
     let coarsest = levels[0].size;
     assert!(
         (coarsest - 50.0 / 13.0).abs() < 1e-12,
@@ -162,7 +161,7 @@ fn a_study_of_orders_is_made_again_from_records() {
     let again = report(out.path(), None).unwrap_or_else(|error| panic!("{error}"));
     let again = &again.studies[0];
     assert_eq!(again.rows, finished.rows);
-    assert_eq!(again.study.convergence, finished.study.convergence);
+    assert_eq!(again.study.upshot, finished.study.upshot);
 }
 
 #[test]

@@ -31,6 +31,19 @@ fn linear_field(x: &Vector<2>) -> Vector<2> {
     ]
 }
 
+/// Forces on the nodes for a displacement of the step, without motion.
+fn force_at_rest(model: &mut Model<2>, increment: &[Vector<2>]) -> Vec<Vector<2>> {
+    let rest = vec![[0.0; 2]; increment.len()];
+    let mut force = rest.clone();
+    let trial = Motion {
+        increment,
+        v: &rest,
+        a: &rest,
+    };
+    model.residual(&trial, &mut force).unwrap();
+    force
+}
+
 fn nodal(model: &Model<2>, field: impl Fn(&Vector<2>) -> Vector<2>) -> Vec<Vector<2>> {
     (0..model.grid.node_count())
         .map(|n| field(&model.grid.node_place(n)))
@@ -49,14 +62,7 @@ fn patch_residual(problem: &Problem<2>, distort: f64) -> f64 {
     model.disc.place(&places).unwrap();
     model.begin_step([0.0, 0.02], MOMENT);
     let increment = nodal(&model, linear_field);
-    let rest = vec![[0.0; 2]; increment.len()];
-    let mut force = rest.clone();
-    let trial = Motion {
-        increment: &increment,
-        v: &rest,
-        a: &rest,
-    };
-    model.residual(&trial, &mut force).unwrap();
+    let force = force_at_rest(&mut model, &increment);
     let (mut inner, mut edge) = (0.0_f64, 0.0_f64);
     for (n, f) in force.iter().enumerate() {
         let x = model.grid.node_place(n);
@@ -130,14 +136,7 @@ fn a_finite_rotation_strains_nothing() {
     let increment = nodal(&model, |x| {
         [(c - 1.0) * x[0] - s * x[1], s * x[0] + (c - 1.0) * x[1]]
     });
-    let rest = vec![[0.0; 2]; increment.len()];
-    let mut force = rest.clone();
-    let trial = Motion {
-        increment: &increment,
-        v: &rest,
-        a: &rest,
-    };
-    model.residual(&trial, &mut force).unwrap();
+    let force = force_at_rest(&mut model, &increment);
     let largest = force
         .as_flattened()
         .iter()

@@ -75,7 +75,7 @@ pub(super) fn stability(options: &Options) -> Result<Plan, CaseError> {
     if methods.is_empty() {
         methods = usual(&target);
     }
-    let mut points = Points::default();
+    let mut points = Points::alone();
     let mut parts = Vec::new();
     let base = target.prepare(Some(target.info.standard))?;
     let mut add = |title: &str, methods: &[String], settings: Vec<Setting>| {
@@ -87,7 +87,7 @@ pub(super) fn stability(options: &Options) -> Result<Plan, CaseError> {
             title: title.to_owned(),
             ..Part::default()
         };
-        let part = points.part_alone(about, &options.request, methods, settings)?;
+        let part = points.part(about, &options.request, methods, settings)?;
         parts.push(part);
         Ok::<(), CaseError>(())
     };

@@ -112,6 +112,14 @@ pub(super) struct Points {
 }
 
 impl Points {
+    /// Of a study that asks for no echoes, and so for no standard runs.
+    pub(super) fn alone() -> Self {
+        Points {
+            alone: true,
+            ..Points::default()
+        }
+    }
+
     /// The plan of all points that were added.
     pub(super) fn plan(self, kind: Kind, options: &Options) -> Result<Plan, CaseError> {
         if self.scenes.is_empty() {
@@ -133,18 +141,6 @@ impl Points {
             Some(set) => refuse_unused(&[format!("--over {set}")]),
             None => Ok(()),
         }
-    }
-
-    /// A part with its points' runs, and no standard runs: echoes are not asked for.
-    pub(super) fn part_alone(
-        &mut self,
-        about: Part,
-        request: &Request,
-        methods: &[String],
-        settings: Vec<Setting>,
-    ) -> Result<Part, CaseError> {
-        self.alone = true;
-        self.part(about, request, methods, settings)
     }
 
     /// A part with its points' runs.
