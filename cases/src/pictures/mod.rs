@@ -7,8 +7,6 @@ mod points;
 mod stability;
 mod trades;
 
-
-
 use crate::judge::references::References;
 use crate::judge::{traces, traces_of};
 use crate::runner::Run;

@@ -2,13 +2,13 @@
 
 mod tables;
 
+use crate::convergence::Convergence;
 use crate::export::{summary_csv, summary_json};
 use crate::format;
 use crate::judge::{Tally, verifies};
 use crate::row::Row;
-use crate::stability::troubles;
-use crate::convergence::Convergence;
 use crate::stability::Stability;
+use crate::stability::troubles;
 use crate::study::{Figure, Image, Study, Upshot};
 use crate::sweep::Sweep;
 use crate::tradeoff::{ADVICE, TRADES, Tradeoff, advice_cells, trade_cells};

@@ -16,7 +16,7 @@ use anechoic_solver::problem::{PointMode, Problem, Transfer};
 use anechoic_solver::record::Record;
 use anechoic_solver::setup;
 use anechoic_tests::twin::{Broken, Twin};
-use anechoic_tests::{DEPTH, REFLECTION, ten_cells, half_space, solved, worst_echo};
+use anechoic_tests::{DEPTH, REFLECTION, half_space, solved, ten_cells, worst_echo};
 
 fn frozen(layer: SideMethod) -> Problem<2> {
     half_space(layer, PointMode::Frozen, Transfer::Keep)

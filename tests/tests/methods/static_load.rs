@@ -21,7 +21,7 @@ use anechoic_solver::tensor::Vector;
 use anechoic_solver::time::{ForceScale, Motion, Rates, System};
 use anechoic_solver::wavelet::Wavelet;
 use anechoic_tests::twin::{Broken, Twin};
-use anechoic_tests::{DEPTH, REFLECTION, ten_cells, KINDS, half_space, solved, worst_echo};
+use anechoic_tests::{DEPTH, KINDS, REFLECTION, half_space, solved, ten_cells, worst_echo};
 
 fn following() -> SideMethod {
     ten_cells().with_choice("static_load", "follow")
@@ -45,7 +45,9 @@ fn with(mut problem: Problem<2>, wavelet: Wavelet) -> Problem<2> {
 
 /// A mesh of a few cells, all three layers, with a shift of 2/s.
 fn tiny((basis, mass): (BasisKind, MassKind)) -> Problem<2> {
-    let layer = ten_cells().with("thickness_m", 60.0).with("alpha_per_s", 2.0);
+    let layer = ten_cells()
+        .with("thickness_m", 60.0)
+        .with("alpha_per_s", 2.0);
     let mut problem = half_space(layer, PointMode::Frozen, Transfer::Keep);
     (problem.target.lower, problem.target.upper) = ([0.0, -60.0], [80.0, 0.0]);
     (problem.basis, problem.mass) = (basis, mass);
