@@ -1,5 +1,6 @@
 //! Constitutive models, one file each. Chosen once a region, called once a block of points.
 
+pub mod law;
 pub mod linear_elastic;
 
 use crate::tensor::{Matrix, Tensor4};
