@@ -2,9 +2,9 @@
 
 use crate::draft::Origins;
 use crate::error::{Complaint, Origin};
-use crate::spec::{BoundarySpec, PointsSpec, ReceiverSpec};
+use crate::spec::{BoundarySpec, PointsSpec, ReceiverSpec, TimeSpec};
 use anechoic_solver::boundary::{SideMethod, Value};
-use anechoic_solver::problem::{Aabb, PointMode, Transfer};
+use anechoic_solver::problem::{Aabb, MassKind, PointMode, Scheme, Transfer};
 use anechoic_solver::wavelet::{Pulse, Wavelet};
 
 /// Steps that a pulse takes at least: fewer can fall on its zeros, and nothing would move.
@@ -141,6 +141,17 @@ impl<'a> Checks<'a> {
     pub fn step(&mut self, dt_s: f64, end_s: f64) {
         self.require(dt_s <= end_s, "time.dt_s", || {
             format!("{dt_s} s is longer than the run (time.end_s = {end_s} s)")
+        });
+    }
+
+    /// A scheme with inertia, and masses that it can take.
+    pub fn inertia(&mut self, time: &TimeSpec) {
+        self.require(time.scheme != Scheme::QuasiStatic, "time.scheme", || {
+            "a pulse is lost without inertia; allowed: \"newmark\", \"explicit\"".into()
+        });
+        let divided = time.scheme != Scheme::Explicit || time.mass == MassKind::Lumped;
+        self.require(divided, "time.mass", || {
+            "explicit steps divide by the masses of nodes; allowed: \"lumped\"".into()
         });
     }
 

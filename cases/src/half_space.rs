@@ -6,7 +6,7 @@ use crate::field::{Field, Kind, Range};
 use crate::scene::Window;
 use crate::spec::*;
 use anechoic_solver::probe::Probes;
-use anechoic_solver::problem::{Aabb, BasisKind, Drive, Problem, Scheme};
+use anechoic_solver::problem::{Aabb, BasisKind, Drive, Problem};
 use anechoic_solver::wavelet::{Pulse, Wavelet};
 use serde::{Deserialize, Serialize};
 
@@ -85,9 +85,7 @@ impl HalfSpace {
                 self.time.end_s
             )
         });
-        checks.require(self.time.scheme == Scheme::Newmark, "time.scheme", || {
-            "a pulse is lost without inertia; allowed: \"newmark\"".into()
-        });
+        checks.inertia(&self.time);
     }
 
     /// No receiver is at the force, where the displacement grows without limit as cells shrink.

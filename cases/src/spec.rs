@@ -193,7 +193,7 @@ pub const NUMERICS: &[Field] = &[
     ),
     Field::new(
         "time.scheme",
-        Kind::Word(&["newmark", "quasi-static"]),
+        Kind::Word(&["newmark", "explicit", "quasi-static"]),
         "time integration",
     ),
     Field::new(

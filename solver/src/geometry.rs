@@ -4,7 +4,7 @@
 use crate::boundary::{self, Assigned, End, LayerPoints};
 use crate::error::SolverError;
 use crate::grid::Grid;
-use crate::problem::{Aabb, BasisKind, PointMode, Problem, Side, Transfer};
+use crate::problem::{Aabb, BasisKind, MassKind, PointMode, Problem, Scheme, Side, Transfer};
 use crate::tensor::Vector;
 
 /// Free surfaces of moving material get so many empty cells to move into.
@@ -279,6 +279,12 @@ fn check<const D: usize>(problem: &Problem<D>) -> Result<(), SolverError> {
             problem.points_per_cell
         );
         return Err(setup_error("points.per_cell", reason));
+    }
+    if problem.scheme == Scheme::Explicit && problem.mass == MassKind::Consistent {
+        return Err(setup_error(
+            "time.mass",
+            "explicit steps need lumped masses",
+        ));
     }
     let keeps = problem.transfer == Transfer::Keep;
     if keeps && problem.point_mode == PointMode::Moving {

@@ -23,7 +23,7 @@ pub struct Points<const D: usize> {
 pub struct Motion<const D: usize> {
     /// Velocities (m/s).
     pub v: Vec<Vector<D>>,
-    /// Accelerations (m/s2).
+    /// Accelerations (m/s2), where the rule of steps asks for those of the step before; else empty.
     pub a: Vec<Vector<D>>,
     /// Gradients of both, for the affine transfer alone.
     pub gradients: Option<Gradients<D>>,
@@ -36,7 +36,7 @@ pub struct Motion<const D: usize> {
 pub struct Gradients<const D: usize> {
     /// `L_v` (1/s).
     pub v: Vec<Matrix<D>>,
-    /// `L_a` (1/s2).
+    /// `L_a` (1/s2); empty where `a` is.
     pub a: Vec<Matrix<D>>,
 }
 
@@ -51,15 +51,17 @@ impl<const D: usize> Points<D> {
         self.place.is_empty()
     }
 
-    /// Adds columns for the first `n` points to carry the motion, at rest.
-    pub fn carry_motion(&mut self, n: usize, affine: bool) {
+    /// Adds columns for the first `n` points to carry the motion, at rest; `accelerations` with those
+    /// of the step before, which an explicit rule does not ask for.
+    pub fn carry_motion(&mut self, n: usize, affine: bool, accelerations: bool) {
+        let old = if accelerations { n } else { 0 };
         let gradients = affine.then(|| Gradients {
             v: vec![[[0.0; D]; D]; n],
-            a: vec![[[0.0; D]; D]; n],
+            a: vec![[[0.0; D]; D]; old],
         });
         self.motion = Some(Motion {
             v: vec![[0.0; D]; n],
-            a: vec![[0.0; D]; n],
+            a: vec![[0.0; D]; old],
             gradients,
             u: None,
         });

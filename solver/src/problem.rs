@@ -78,6 +78,9 @@ pub enum BasisKind {
 pub enum Scheme {
     /// Newmark with beta = 1/4, gamma = 1/2: second order, keeps the energy of a linear body.
     Newmark,
+    /// Leapfrog: velocities between steps, no equations to solve; stable below the step in which the
+    /// fastest wave crosses a cell.
+    Explicit,
     /// Without inertia: equilibrium at each step.
     QuasiStatic,
 }

@@ -26,6 +26,20 @@ pub struct SeriesTable {
 }
 
 impl SeriesTable {
+    /// Are the values of the last sample finite, or is there none?
+    pub fn ends_finite(&self) -> bool {
+        let mut last = self.columns.iter().filter_map(|c| c.values.last());
+        last.all(|value| value.is_finite())
+    }
+
+    /// Keeps the first `samples` samples.
+    pub fn truncate(&mut self, samples: usize) {
+        self.times.truncate(samples);
+        for column in &mut self.columns {
+            column.values.truncate(samples);
+        }
+    }
+
     /// The values of the column called `name`.
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         self.columns

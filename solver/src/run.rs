@@ -6,7 +6,8 @@ use crate::physics::model::Model;
 use crate::problem::{Problem, Scheme};
 use crate::record::{Cost, Record, SeriesTable, Status};
 use crate::sampler::Sampler;
-use crate::time::Integrator;
+use crate::time::{Integrator, System};
+use crate::time::explicit::Explicit;
 use crate::time::newmark::Newmark;
 use crate::time::quasi_static::QuasiStatic;
 use crate::{Monitor, Outcome, setup};
@@ -26,6 +27,7 @@ pub(crate) fn run_model<const D: usize>(
     let nodes = model.grid.node_count();
     let mut integrator: Box<dyn Integrator<D>> = match problem.scheme {
         Scheme::Newmark => Box::new(Newmark::new(nodes)),
+        Scheme::Explicit => Box::new(Explicit::new(nodes)),
         Scheme::QuasiStatic => Box::new(QuasiStatic::new(nodes)),
     };
     let mut record = Record {
@@ -40,35 +42,79 @@ pub(crate) fn run_model<const D: usize>(
         },
     };
     let mut sampler = Sampler::new(problem, &model, &mut record);
-    sampler.sample(problem, &model, 0, 0.0, &mut record);
     let total = problem.steps();
     let mut error = None;
-    for step in 1..=total {
-        let times = [(step - 1) as f64, step as f64].map(|n| n * problem.dt);
-        match integrator.step(
+    for step in 0..=total {
+        let made = advance(
+            problem,
             &mut model,
-            times,
-            Moment {
-                step,
-                time_s: times[1],
-            },
-        ) {
-            Ok(iterations) => record.cost.newton_iterations += iterations,
-            Err(failure) => {
-                record.status = Status::Failed(failure.to_string());
-                error = Some(failure);
-                break;
-            }
+            integrator.as_mut(),
+            &mut sampler,
+            step,
+            &mut record,
+        );
+        if let Err(failure) = made {
+            record.status = Status::Failed(failure.to_string());
+            error = Some(failure);
+            break;
         }
-        record.cost.steps = step;
-        sampler.sample(problem, &model, step, times[1], &mut record);
-        if !monitor.step(step, total) && step < total {
+        if step > 0 && !monitor.step(step, total) && step < total {
             record.status = Status::Cancelled;
             break;
         }
     }
     record.cost.unknowns = model.unknowns();
     record.cost.iterations = model.solver.iterations;
-    record.cost.linear_solver = model.solver.describe();
+    record.cost.linear_solver = match problem.scheme {
+        Scheme::Explicit => "none: explicit steps".to_owned(),
+        _ => model.solver.describe(),
+    };
     Outcome { record, error }
+}
+
+/// Makes the step with the number `step`, none for 0, and samples what it led to.
+fn advance<const D: usize>(
+    problem: &Problem<D>,
+    model: &mut Model<D>,
+    integrator: &mut dyn Integrator<D>,
+    sampler: &mut Sampler<D>,
+    step: usize,
+    record: &mut Record,
+) -> Result<(), SolverError> {
+    let at = |step: usize| step as f64 * problem.dt;
+    let moment = |step: usize| Moment {
+        step,
+        time_s: at(step),
+    };
+    if step > 0 {
+        let times = [at(step - 1), at(step)];
+        record.cost.newton_iterations += integrator.step(model, times, moment(step))?;
+        record.cost.steps = step;
+    }
+    let receivers = &mut record.receivers;
+    if problem.scheme == Scheme::Explicit {
+        // velocities at the end of the step need the acceleration there
+        sampler.displacements(model, step, at(step), receivers);
+        let next = [at(step), at(step + 1)];
+        if let Err(failure) = integrator.prepare(model, next, moment(step + 1)) {
+            receivers.truncate(step);
+            return Err(failure);
+        }
+        sampler.velocities(model, receivers);
+    } else {
+        sampler.velocities(model, receivers);
+        sampler.displacements(model, step, at(step), receivers);
+    }
+    sampler.sample(problem, model, step, at(step), record);
+    // squares overflow before what is squared does
+    if record.energy.ends_finite() {
+        return Ok(());
+    }
+    record.energy.truncate(record.energy.times.len() - 1);
+    Err(SolverError::NonFinite {
+        field: "the energy",
+        step,
+        time_s: at(step),
+        place: model.place_of_largest(&model.nodes.v),
+    })
 }

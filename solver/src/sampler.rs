@@ -113,7 +113,7 @@ impl<const D: usize> Sampler<D> {
         }
     }
 
-    /// Samples the state at time `t` (s), after `step` steps.
+    /// Samples lines, energies and fields at time `t` (s), after `step` steps.
     pub(crate) fn sample(
         &mut self,
         problem: &Problem<D>,
@@ -122,7 +122,6 @@ impl<const D: usize> Sampler<D> {
         t: f64,
         record: &mut Record,
     ) {
-        self.receivers(model, step, t, &mut record.receivers);
         for ((line, samples), out) in problem
             .probes
             .lines
@@ -132,9 +131,8 @@ impl<const D: usize> Sampler<D> {
         {
             if step.is_multiple_of(line.every) {
                 out.times.push(t);
-                let velocity =
-                    |s: &Sample| s.interpolate(&model.nodes.v, &model.nodes.active)[line.component];
-                out.values.extend(samples.iter().map(velocity));
+                let component = |s: &Sample| velocity(model, s)[line.component];
+                out.values.extend(samples.iter().map(component));
             }
         }
         if problem
@@ -154,15 +152,29 @@ impl<const D: usize> Sampler<D> {
         }
     }
 
-    fn receivers(&mut self, model: &Model<D>, step: usize, t: f64, out: &mut SeriesTable) {
+    /// Receivers' velocities, on the nodes as they are.
+    pub(crate) fn velocities(&self, model: &Model<D>, out: &mut SeriesTable) {
+        let columns = out.columns.chunks_exact_mut(2 * D);
+        for (tracer, columns) in self.tracers.iter().zip(columns) {
+            let velocity = velocity(model, &tracer.sample);
+            for (column, v) in columns[D..].iter_mut().zip(velocity) {
+                column.values.push(v);
+            }
+        }
+    }
+
+    /// Receivers' displacements at time `t` (s) after a step or at the start, by the step's increment.
+    pub(crate) fn displacements(
+        &mut self,
+        model: &Model<D>,
+        step: usize,
+        t: f64,
+        out: &mut SeriesTable,
+    ) {
         out.times.push(t);
         let (nodes, moving) = (&model.nodes, model.moving);
-        for (tracer, columns) in self
-            .tracers
-            .iter_mut()
-            .zip(out.columns.chunks_exact_mut(2 * D))
-        {
-            let velocity = tracer.sample.interpolate(&nodes.v, &nodes.active);
+        let columns = out.columns.chunks_exact_mut(2 * D);
+        for (tracer, columns) in self.tracers.iter_mut().zip(columns) {
             if step > 0 {
                 let increment = tracer.sample.interpolate(&nodes.increment, &nodes.active);
                 for i in 0..D {
@@ -170,9 +182,8 @@ impl<const D: usize> Sampler<D> {
                     tracer.place[i] += if moving { increment[i] } else { 0.0 };
                 }
             }
-            for i in 0..D {
-                columns[i].values.push(tracer.displacement[i]);
-                columns[D + i].values.push(velocity[i]);
+            for (column, u) in columns.iter_mut().zip(tracer.displacement) {
+                column.values.push(u);
             }
             if moving {
                 model.disc.sample_into(&tracer.place, &mut tracer.sample);
@@ -207,6 +218,21 @@ impl<const D: usize> Sampler<D> {
             columns: columns.collect(),
         }
     }
+}
+
+/// The velocity at the end of the step: where nodal velocities stand before it, they are carried on by
+/// the step's acceleration.
+fn velocity<const D: usize>(model: &Model<D>, sample: &Sample) -> Vector<D> {
+    let nodes = &model.nodes;
+    let mut v = sample.interpolate(&nodes.v, &nodes.active);
+    let lag = model.velocity_lag();
+    if lag > 0.0 {
+        let a = sample.interpolate(&nodes.a, &nodes.active);
+        for i in 0..D {
+            v[i] += lag * a[i];
+        }
+    }
+    v
 }
 
 /// More samples than this get their room as they come: not all long runs end.

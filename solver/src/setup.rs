@@ -72,7 +72,8 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
     points.inertia = inertia;
     terms.extend(drives(problem, &geometry));
     if problem.transfer != Transfer::Keep && problem.scheme != Scheme::QuasiStatic {
-        points.carry_motion(first_kept, problem.transfer == Transfer::Affine);
+        let affine = problem.transfer == Transfer::Affine;
+        points.carry_motion(first_kept, affine, problem.scheme != Scheme::Explicit);
         if let (Some(_), Some(motion)) = (displacement, points.motion.as_mut()) {
             motion.u = Some(vec![[0.0; D]; first_kept]);
         }
@@ -98,6 +99,7 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
         replaced_displacement: displacement == Some(DisplacementTransfer::Replaced),
         transfer: problem.transfer,
         consistent: problem.mass == MassKind::Consistent,
+        explicit: problem.scheme == Scheme::Explicit,
     })
 }
 
@@ -174,6 +176,7 @@ fn context<'a, const D: usize>(
         moving: problem.point_mode == PointMode::Moving,
         transfer: problem.transfer,
         mass: problem.mass,
+        explicit: problem.scheme == Scheme::Explicit,
         end_time: problem.end_time,
         points,
         layer,

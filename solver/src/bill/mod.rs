@@ -174,7 +174,16 @@ impl<const D: usize> Clerk<'_, D> {
 
     /// Looks at the balance of forces in a step: a linear step needs no second.
     fn looks(&self) -> f64 {
-        if self.is_moving() { 2.0 } else { 1.0 }
+        if self.is_moving() && !self.is_explicit() {
+            2.0
+        } else {
+            1.0
+        }
+    }
+
+    /// Explicit steps solve nothing.
+    fn is_explicit(&self) -> bool {
+        self.problem.scheme == Scheme::Explicit
     }
 
     /// Time (s) of so many points at a price (ns) each.
@@ -208,19 +217,31 @@ impl<const D: usize> Clerk<'_, D> {
 
     /// The nodes' motion, the matrices and the solver. Nodes that keep the motion apply a matrix to it.
     fn nodes(&self) -> Item {
-        let matrices = if self.is_moving() { 1 } else { 2 };
+        let matrices = match (self.is_moving(), self.is_explicit()) {
+            (true, false) => 1,
+            (false, false) => 2,
+            // that of the body, where nodes keep the motion
+            (_, true) => usize::from(self.keeps()),
+        };
         let pattern = self.disc.couplings() * size_of::<u32>() + size_of::<usize>();
         let product = if self.keeps() {
             self.prices.product
         } else {
             0.0
         };
-        let solve = solve_in_iterations(self.problem, &self.geometry.grid.h, self.is_moving());
+        let solve = match self.is_explicit() {
+            true => 0.0,
+            false => solve_in_iterations(self.problem, &self.geometry.grid.h, self.is_moving()),
+        };
         let step = STEP + self.looks() * (BALANCE + product) + solve * self.prices.iteration;
+        let (vectors, holds) = match self.is_explicit() {
+            true => (11, "motion, matrix of the body"),
+            false => (18, "motion, trial, solver, matrix"),
+        };
         Item {
-            bytes_per_node: pattern + matrices * self.matrix_bytes() + 18 * Self::VECTOR,
+            bytes_per_node: pattern + matrices * self.matrix_bytes() + vectors * Self::VECTOR,
             step_s: Self::time(self.nodes, step),
-            ..self.item("nodes", "motion, trial, solver, matrix")
+            ..self.item("nodes", holds)
         }
     }
 
@@ -231,11 +252,13 @@ impl<const D: usize> Clerk<'_, D> {
         }
         let affine = self.problem.transfer == Transfer::Affine;
         let price = &self.prices;
-        let (holds, gradients) = match affine {
-            true => ("velocity, acceleration, their gradients, stress", 2),
-            false => ("velocity, acceleration, stress", 0),
+        let (holds, vectors, gradients) = match (affine, self.is_explicit()) {
+            (true, false) => ("velocity, acceleration, their gradients, stress", 2, 2),
+            (false, false) => ("velocity, acceleration, stress", 2, 0),
+            (true, true) => ("velocity, its gradient, stress", 1, 1),
+            (false, true) => ("velocity, stress", 1, 0),
         };
-        // to the nodes both, back the acceleration
+        // to the nodes each, back the acceleration
         let to_nodes = if affine { price.affine } else { price.scatter };
         let back = price.gather * if affine { 2.2 } else { 1.0 };
         let force = match self.is_moving() {
@@ -246,8 +269,8 @@ impl<const D: usize> Clerk<'_, D> {
         let name = format!("{:?} transfer", self.problem.transfer).to_lowercase();
         Some(Item {
             points: self.counts.carrying(),
-            bytes_per_point: 2 * Self::VECTOR + (gradients + 2) * Self::MATRIX,
-            step_s: Self::time(self.counts.carrying(), 2.0 * to_nodes + back)
+            bytes_per_point: vectors * Self::VECTOR + (gradients + 2) * Self::MATRIX,
+            step_s: Self::time(self.counts.carrying(), vectors as f64 * to_nodes + back)
                 + Self::time(self.counts.bulk, force),
             ..self.item(&name, holds)
         })
@@ -256,7 +279,11 @@ impl<const D: usize> Clerk<'_, D> {
     /// What it takes to move points: masses, nodes and stiffness anew in every step.
     fn moving(&self) -> Option<Item> {
         let price = &self.prices;
-        let anew = price.scatter + price.gather + price.find + price.moduli + price.tangent;
+        let matrix = match self.is_explicit() {
+            true => 0.0,
+            false => price.moduli + price.tangent,
+        };
+        let anew = price.scatter + price.gather + price.find + matrix;
         self.is_moving().then(|| Item {
             points: self.counts.bulk,
             step_s: Self::time(self.counts.bulk, anew),
@@ -299,7 +326,7 @@ impl<const D: usize> Clerk<'_, D> {
         let bytes =
             |vectors: usize, matrices: usize| vectors * Self::VECTOR + matrices * Self::MATRIX;
         let mut bytes_per_node = bytes(upkeep.node_vectors, 0);
-        if points > 0 && (self.keeps() || self.is_moving()) {
+        if points > 0 && !self.is_explicit() && (self.keeps() || self.is_moving()) {
             // its stiffness depends on the step and so has a matrix of its own
             bytes_per_node += self.matrix_bytes();
         }

@@ -4,15 +4,23 @@
 //! sigma = sigma_max (d / L)^p,     d from the inner edge
 //! ```
 //!
-//! This is S21 (6)-(7) made independent of the time step: what is printed there scales velocities by
-//! 1 - beta in every step, which is the rate beta/dt. Where layers of two sides meet the larger rate
+//! This is S21 (6)-(7) made independent of the time step: over a step it is the factor
+//! (1 - sigma dt/2)/(1 + sigma dt/2), exp(-sigma dt) to third order. What is printed there
+//! (`form = "printed"`, explicit steps alone) scales velocities in every step,
+//!
+//! ```text
+//! v' = (1 - beta) v,     beta = alpha d
+//! ```
+//!
+//! which is the rate beta/dt and so depends on the step. Where layers of two sides meet the larger rate
 //! holds.
 
 use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
 use super::{Context, End, Layout, Parts, walls};
 use crate::error::SolverError;
 use crate::physics::kernel::{Lumped, NodeTerm};
-use crate::problem::{Problem, Side, Transfer};
+use crate::problem::{Problem, Scheme, Side, Transfer};
+use crate::tensor::Vector;
 
 /// The method's entry.
 pub static METHOD: MethodInfo = MethodInfo {
@@ -47,6 +55,21 @@ pub static METHOD: MethodInfo = MethodInfo {
                 default: Some(2.0),
                 min: 0.0,
                 max: 10.0,
+            },
+        },
+        Param {
+            name: "form",
+            doc: "rate: sigma, whatever the step; printed: S21's factor 1 - alpha d in every step, explicit alone",
+            kind: ParamKind::Choice(&["rate", "printed"]),
+        },
+        Param {
+            name: "alpha_per_m",
+            doc: "S21's coefficient alpha of the printed form",
+            kind: ParamKind::Number {
+                unit: "1/m",
+                default: Some(0.01),
+                min: 0.0,
+                max: 1e3,
             },
         },
         Param {
@@ -104,6 +127,23 @@ pub(crate) fn layout<const D: usize>(
             reason: "a damping layer needs a thickness".to_owned(),
         });
     };
+    let printed = method.choice(&METHOD, "form") == "printed";
+    if printed && problem.scheme != Scheme::Explicit {
+        return Err(SolverError::Setup {
+            field: field("form"),
+            reason: "the printed form is a factor of explicit steps; use rate, or time.scheme = \"explicit\""
+                .to_owned(),
+        });
+    }
+    let most = method.number(&METHOD, "alpha_per_m") * thickness;
+    if printed && most > 1.0 {
+        return Err(SolverError::Setup {
+            field: field("alpha_per_m"),
+            reason: format!(
+                "alpha times the thickness is {most}: above 1 the velocity changes its sign in every step"
+            ),
+        });
+    }
     let end = match method.choice(&METHOD, "end") {
         "free" => End::Free,
         "roller" => End::Roller,
@@ -133,19 +173,24 @@ pub(crate) fn layout<const D: usize>(
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
-    let mut rate = vec![0.0_f64; context.grid.node_count()];
+    let nodes = context.grid.node_count();
+    let (mut rate, mut factor) = (vec![0.0_f64; nodes], vec![0.0_f64; nodes]);
     for assigned in &context.sides {
         let (side, layout) = (assigned.side, assigned.layout);
         let thickness = layout.outside + layout.inside;
-        let largest = assigned.method.number(&METHOD, "sigma_max_per_s");
-        let power = assigned.method.number(&METHOD, "power");
+        let number = |key: &str| assigned.method.number(&METHOD, key);
+        let printed = assigned.method.choice(&METHOD, "form") == "printed";
+        let (largest, power, field) = match printed {
+            true => (number("alpha_per_m") * thickness, 1.0, &mut factor),
+            false => (number("sigma_max_per_s"), number("power"), &mut rate),
+        };
         let inwards = if side.upper {
             -layout.inside
         } else {
             layout.inside
         };
         let inner_edge = context.plane(side) + inwards;
-        for (node, rate) in rate.iter_mut().enumerate() {
+        for (node, rate) in field.iter_mut().enumerate() {
             let x = context.grid.node_place(node)[side.axis];
             let depth = if side.upper {
                 x - inner_edge
@@ -161,19 +206,34 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
             }
         }
     }
-    let damped = rate.iter().enumerate().filter(|(_, s)| **s != 0.0);
-    let nodes = damped.map(|(n, s)| (n as u32, *s)).collect();
     let mut terms = walls(context);
-    terms.push(Box::new(DampingLayer { nodes }));
+    terms.push(Box::new(DampingLayer {
+        nodes: damped(&rate),
+        factors: damped(&factor),
+    }));
     Ok(Parts::of_terms(terms))
 }
 
-/// Nodes with their damping rates (1/s).
+fn damped(strength: &[f64]) -> Vec<(u32, f64)> {
+    let nodes = strength.iter().enumerate().filter(|(_, s)| **s != 0.0);
+    nodes.map(|(n, s)| (n as u32, *s)).collect()
+}
+
+/// Nodes with their damping rates (1/s), or with S21's beta.
 struct DampingLayer {
     nodes: Vec<(u32, f64)>,
+    factors: Vec<(u32, f64)>,
 }
 
 impl<const D: usize> NodeTerm<D> for DampingLayer {
+    fn scale(&self, v: &mut [Vector<D>]) {
+        for &(node, beta) in &self.factors {
+            for v in &mut v[node as usize] {
+                *v *= 1.0 - beta;
+            }
+        }
+    }
+
     fn lump(&self, out: &mut Lumped<D>) {
         for &(node, rate) in &self.nodes {
             let node = node as usize;

@@ -8,6 +8,8 @@
 //! material. Summed over a row of nodes this is rho c per unit area, which is what S21 (5) means to
 //! be: the mass of one full cell times c/h; with the half-cell mass of the boundary nodes alone the
 //! impedance is halved. A wave that meets it head-on is reflected by (1 - a)/(1 + a).
+//!
+//! Explicit steps sum the rows to the nodes, `C_I = sum_b A_b N_I Z`, and centre the traction in time.
 
 use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
 use super::surface::Surface;
@@ -15,7 +17,7 @@ use super::{Context, End, Layout, Parts};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
 use crate::linear::block_matrix::BlockMatrix;
-use crate::physics::kernel::NodeTerm;
+use crate::physics::kernel::{Lumped, NodeTerm};
 use crate::problem::{Problem, Scheme, Side};
 use crate::tensor::{Matrix, Vector};
 
@@ -72,6 +74,7 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
             surface,
             impedance,
             moving: context.moving,
+            lumped: context.explicit,
         }) as Box<dyn NodeTerm<D>>
     });
     Ok(Parts::of_terms(terms.collect()))
@@ -83,6 +86,8 @@ struct Dashpot<const D: usize> {
     /// Impedance in each direction (kg/(m2 s)).
     impedance: Vector<D>,
     moving: bool,
+    /// Are its rows summed to the nodes?
+    lumped: bool,
 }
 
 impl<const D: usize> NodeTerm<D> for Dashpot<D> {
@@ -90,7 +95,30 @@ impl<const D: usize> NodeTerm<D> for Dashpot<D> {
         self.surface.attach(disc)
     }
 
+    fn lump(&self, out: &mut Lumped<D>) {
+        if !self.lumped {
+            return;
+        }
+        out.viscous_mut();
+        let Lumped { mass, viscous, .. } = out;
+        for sample in &self.surface.samples {
+            let seen = || {
+                let pairs = sample.nodes.iter().zip(&sample.weights);
+                pairs.filter(|(n, _)| mass[**n as usize][0] > 0.0)
+            };
+            let total: f64 = seen().map(|(_, w)| w).sum();
+            for (&node, w) in seen() {
+                for i in 0..D {
+                    viscous[node as usize][i] += self.surface.area * w / total * self.impedance[i];
+                }
+            }
+        }
+    }
+
     fn force(&self, _t: f64, v: &[Vector<D>], active: &[bool], out: &mut [Vector<D>]) {
+        if self.lumped {
+            return;
+        }
         for sample in &self.surface.samples {
             let velocity = sample.interpolate(v, active);
             let total = sample.active_weight(active);

@@ -94,6 +94,8 @@ pub struct Context<'a, const D: usize> {
     pub transfer: Transfer,
     /// How the inertia of points reaches the nodes.
     pub mass: MassKind,
+    /// Are steps explicit?
+    pub explicit: bool,
     /// When the run ends (s).
     pub end_time: f64,
     /// All points.

@@ -30,7 +30,7 @@ use crate::linear::block_matrix::BlockMatrix;
 use crate::material::MaterialBlock;
 use crate::material::linear_elastic::LinearElastic;
 use crate::physics::inertia::PointInertia;
-use crate::physics::kernel::{RegionKernel, Stiffness, Trial};
+use crate::physics::kernel::{ExplicitKernel, RegionKernel, Stiffness, Trial};
 use crate::physics::stiffness::scatter_moduli;
 use crate::points::{BLOCK, Points, blocks};
 use crate::problem::{MassKind, Problem, Scheme, Side, Transfer};
@@ -239,15 +239,20 @@ struct Coefficients<const D: usize> {
     gain: Vector<D>,
 }
 
+/// r_l of each axis (1/s): in two dimensions the other axis's damping less its own.
+#[inline]
+fn opposite_less_own<const D: usize>(beta: &Vector<D>) -> Vector<D> {
+    let total: f64 = beta.iter().sum();
+    beta.map(|b| total - 2.0 * b)
+}
+
 impl<const D: usize> Coefficients<D> {
     #[inline]
     fn new(beta: &Vector<D>, alpha: f64, dt: f64) -> Self {
-        let total: f64 = beta.iter().sum();
         let half = 0.5 * dt;
         let p = beta.map(|b| alpha + b);
         Coefficients {
-            // the other axis minus this one, in two dimensions
-            r: beta.map(|b| total - 2.0 * b),
+            r: opposite_less_own(beta),
             keep: p.map(|p| (1.0 - p * half) / (1.0 + p * half)),
             gain: p.map(|p| half / (1.0 + p * half)),
         }
@@ -281,6 +286,57 @@ impl<const D: usize> Pml<D> {
     }
 }
 
+/// `P_ij = sum_k C_ijkj (g_kj + r_j phi_kj) + sum_{l /= j} sum_k C_ijkl g_kl`.
+#[inline]
+fn stretched_stress<const D: usize>(
+    moduli: &Tensor4<D>,
+    r: &Vector<D>,
+    g: &Matrix<D>,
+    phi: &Matrix<D>,
+) -> Matrix<D> {
+    let mut stress = zero::<D>();
+    for i in 0..D {
+        for j in 0..D {
+            let mut sum = contract(&moduli[i][j], g);
+            for k in 0..D {
+                sum += moduli[i][j][k][j] * r[j] * phi[k][j];
+            }
+            stress[i][j] = sum;
+        }
+    }
+    stress
+}
+
+/// Leapfrog with the memory of the present: the rule by which phi moves on is that of implicit steps,
+/// and the step limit is that of the elastic material (`pml.md`'s rule: one bilinear map for all).
+impl<const D: usize> ExplicitKernel<D> for Pml<D> {
+    fn present_force(
+        &mut self,
+        disc: &dyn Discretisation<D>,
+        points: &Points<D>,
+        out: &mut [Vector<D>],
+    ) {
+        let mut stress = [zero::<D>(); BLOCK];
+        for block in blocks(self.range.clone()) {
+            let n = block.len();
+            for (b, stress) in stress[..n].iter_mut().enumerate() {
+                let q = block.start - self.range.start + b;
+                let r = opposite_less_own(&self.beta[q]);
+                *stress = stretched_stress(&self.moduli, &r, &self.gradient[q], &self.memory[q]);
+            }
+            disc.scatter_stress(block.clone(), &points.volume[block], &stress[..n], out);
+        }
+        if let Some(shifted) = &mut self.shifted {
+            let (range, beta) = (&self.range, self.beta.as_slice());
+            shifted.present_force(disc, points, Layer { range, beta }, out);
+        }
+    }
+
+    fn advance(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError> {
+        self.commit(trial)
+    }
+}
+
 impl<const D: usize> RegionKernel<D> for Pml<D> {
     fn inertia(&self, block: Range<usize>, out: &mut PointInertia<D>) {
         let own = block.start - self.range.start..block.end - self.range.start;
@@ -300,15 +356,7 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
                 let q = block.start - self.range.start + b;
                 let c = Coefficients::new(&self.beta[q], self.alpha, trial.dt);
                 let phi = c.advance(&self.memory[q], &self.gradient[q], g);
-                for i in 0..D {
-                    for j in 0..D {
-                        let mut sum = contract(&self.moduli[i][j], g);
-                        for k in 0..D {
-                            sum += self.moduli[i][j][k][j] * c.r[j] * phi[k][j];
-                        }
-                        stress[i][j] = sum;
-                    }
-                }
+                *stress = stretched_stress(&self.moduli, &c.r, g, &phi);
             }
             let volumes = &trial.points.volume[block.clone()];
             trial.disc.scatter_stress(block, volumes, &stress[..n], out);
@@ -362,6 +410,10 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
 
     fn stiffness(&self) -> Stiffness {
         Stiffness::Constant
+    }
+
+    fn explicit(&mut self) -> Option<&mut dyn ExplicitKernel<D>> {
+        Some(self)
     }
 
     /// Of the gradients alone; what the memory holds is not energy.

@@ -172,11 +172,19 @@ pub(crate) fn layout<const D: usize>(
     side: Side,
     method: &SideMethod,
 ) -> Result<Layout, SolverError> {
-    if problem.scheme == Scheme::QuasiStatic {
+    let obstacle = match problem.scheme {
+        Scheme::Newmark => None,
+        Scheme::Explicit => Some(
+            "the published layer has implicit steps alone; with time.scheme = \"explicit\" use pml, dashpot, damping-layer or extended",
+        ),
+        Scheme::QuasiStatic => {
+            Some("an absorbing layer absorbs waves; use fixed or roller with quasi-static")
+        }
+    };
+    if let Some(reason) = obstacle {
         return Err(SolverError::Setup {
             field: format!("boundary.{}.method", side.name()),
-            reason: "an absorbing layer absorbs waves; use fixed or roller with quasi-static"
-                .to_owned(),
+            reason: reason.to_owned(),
         });
     }
     let outside = method

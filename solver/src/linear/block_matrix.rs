@@ -52,6 +52,15 @@ impl<const D: usize> BlockMatrix<D> {
         }
     }
 
+    /// Without blocks, for a matrix that is never assembled.
+    pub fn empty(pattern: Arc<Pattern>) -> Self {
+        BlockMatrix {
+            pattern,
+            blocks: Vec::new(),
+            scratch: Vec::new(),
+        }
+    }
+
     /// Sets all values to zero.
     pub fn clear(&mut self) {
         self.blocks.fill([[0.0; D]; D]);

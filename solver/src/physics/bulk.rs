@@ -4,7 +4,7 @@
 //! [`Carried`] for points that carry their stress, in small strain when frozen and in finite strain
 //! when they move.
 
-use super::kernel::{RegionKernel, Stiffness, Trial};
+use super::kernel::{ExplicitKernel, RegionKernel, Stiffness, Trial};
 use crate::basis::Discretisation;
 use crate::error::SolverError;
 use crate::linear::block_matrix::BlockMatrix;
@@ -74,6 +74,10 @@ impl<const D: usize> RegionKernel<D> for Kept<D> {
         Stiffness::Linear
     }
 
+    fn explicit(&mut self) -> Option<&mut dyn ExplicitKernel<D>> {
+        Some(self)
+    }
+
     fn strain_energy(
         &self,
         disc: &dyn Discretisation<D>,
@@ -90,6 +94,21 @@ impl<const D: usize> RegionKernel<D> for Kept<D> {
             }
         }
         energy
+    }
+}
+
+impl<const D: usize> ExplicitKernel<D> for Kept<D> {
+    /// Nothing: the model applies the assembled matrix.
+    fn present_force(
+        &mut self,
+        _disc: &dyn Discretisation<D>,
+        _points: &Points<D>,
+        _out: &mut [Vector<D>],
+    ) {
+    }
+
+    fn advance(&mut self, _trial: &Trial<'_, D>) -> Result<(), SolverError> {
+        Ok(())
     }
 }
 
@@ -195,16 +214,14 @@ impl<const D: usize> RegionKernel<D> for Carried<D> {
     fn commit(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError> {
         if !self.finite {
             // a linear step is accepted without a second look at its forces
-            let mut first = [zero::<D>(); BLOCK];
-            let mut next = std::mem::take(&mut self.next);
-            for block in blocks(self.range.clone()) {
-                let own = self.own(&block);
-                self.trial_stress(trial, &block, &mut next[own], &mut first[..block.len()])?;
-            }
-            self.next = next;
+            return self.advance(trial);
         }
         std::mem::swap(&mut self.stress, &mut self.next);
         Ok(())
+    }
+
+    fn explicit(&mut self) -> Option<&mut dyn ExplicitKernel<D>> {
+        Some(self)
     }
 
     fn stiffness(&self) -> Stiffness {
@@ -227,5 +244,38 @@ impl<const D: usize> RegionKernel<D> for Carried<D> {
             .zip(volumes)
             .map(|(s, v)| v * self.material.energy_density(s))
             .sum()
+    }
+}
+
+impl<const D: usize> ExplicitKernel<D> for Carried<D> {
+    /// By the Kirchhoff stress and the volumes of the start; at the start of a step it is the first
+    /// Piola-Kirchhoff stress too.
+    fn present_force(
+        &mut self,
+        disc: &dyn Discretisation<D>,
+        points: &Points<D>,
+        out: &mut [Vector<D>],
+    ) {
+        for block in blocks(self.range.clone()) {
+            let stress = &self.stress[self.own(&block)];
+            disc.scatter_stress(block.clone(), &points.volume[block], stress, out);
+        }
+    }
+
+    fn advance(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError> {
+        let mut first = [zero::<D>(); BLOCK];
+        let mut next = std::mem::take(&mut self.next);
+        let mut result = Ok(());
+        for block in blocks(self.range.clone()) {
+            let own = self.own(&block);
+            result = self.trial_stress(trial, &block, &mut next[own], &mut first[..block.len()]);
+            if result.is_err() {
+                break;
+            }
+        }
+        self.next = next;
+        result?;
+        std::mem::swap(&mut self.stress, &mut self.next);
+        Ok(())
     }
 }

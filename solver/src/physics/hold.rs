@@ -27,6 +27,10 @@ impl<const D: usize> Model<D> {
             nodes.v[node as usize][i as usize] = motion.velocity[0];
             nodes.a[node as usize][i as usize] = motion.acceleration[0];
         }
+        if self.explicit {
+            // between steps a velocity is all that an unknown has
+            return;
+        }
         let released: Vec<(usize, usize)> = before
             .iter()
             .map(|&(node, i, _)| (node as usize, i as usize))

@@ -123,6 +123,11 @@ pub trait RegionKernel<const D: usize>: Send {
     /// What the tangent depends on.
     fn stiffness(&self) -> Stiffness;
 
+    /// The region as explicit steps see it; `None` when it has no explicit form.
+    fn explicit(&mut self) -> Option<&mut dyn ExplicitKernel<D>> {
+        None
+    }
+
     /// Is the tangent symmetric?
     fn is_symmetric(&self) -> bool {
         true
@@ -136,6 +141,25 @@ pub trait RegionKernel<const D: usize>: Send {
         points: &Points<D>,
         u: &[Vector<D>],
     ) -> f64;
+}
+
+/// A region in explicit steps: the force is that of the state at hand, and the state moves on once
+/// the increment is known.
+pub trait ExplicitKernel<const D: usize> {
+    /// Adds the internal force of the present state (N); not asked where the force is K times the
+    /// displacement ([`Stiffness::Linear`]).
+    fn present_force(
+        &mut self,
+        disc: &dyn Discretisation<D>,
+        points: &Points<D>,
+        out: &mut [Vector<D>],
+    );
+
+    /// Moves stress and memory on by the step's increment.
+    ///
+    /// # Errors
+    /// An inverted point.
+    fn advance(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError>;
 }
 
 /// How an unknown is held during a step.
@@ -192,6 +216,9 @@ pub trait NodeTerm<const D: usize>: Send {
 
     /// Adds minus the derivative of the force with respect to the velocity, times `rate` (1/s).
     fn tangent(&self, _rate: f64, _active: &[bool], _out: &mut BlockMatrix<D>) {}
+
+    /// Scales the velocities (m/s) that an explicit step has found.
+    fn scale(&self, _v: &mut [Vector<D>]) {}
 
     /// Finds the nodes of what is attached to the material. `Err` names a place outside the grid.
     ///

@@ -65,6 +65,8 @@ pub struct Parts<const D: usize> {
     pub solver: LinearSolver<D>,
     /// Does inertia couple nodes as the shape functions do?
     pub consistent: bool,
+    /// Are steps explicit, velocities standing between them?
+    pub explicit: bool,
 }
 
 /// Points, nodes, regions and terms.
@@ -87,6 +89,7 @@ pub struct Model<const D: usize> {
     pub transfer: Transfer,
     /// Linear solver.
     pub solver: LinearSolver<D>,
+    pub(super) explicit: bool,
     pub(super) movable: usize,
     pub(super) replaced_displacement: bool,
     pub(super) kept: KeptNodes<D>,
@@ -137,7 +140,8 @@ impl<const D: usize> Model<D> {
             None => KeptNodes::default(),
         };
         let mut model = Model {
-            matrices: Matrices::new(&mut regions, disc.as_ref(), &points),
+            matrices: Matrices::new(&mut regions, disc.as_ref(), &points, !parts.explicit),
+            explicit: parts.explicit,
             nodes: Nodes {
                 lumped: Lumped::zeros(n),
                 active: vec![false; n],
@@ -226,6 +230,11 @@ impl<const D: usize> Model<D> {
             .count()
     }
 
+    /// How long before the end of a step nodal velocities stand (s): half of it in explicit steps.
+    pub fn velocity_lag(&self) -> f64 {
+        if self.explicit { 0.5 * self.dt } else { 0.0 }
+    }
+
     pub(super) fn trial<'a>(&'a self, increment: &'a [Vector<D>]) -> Trial<'a, D> {
         Trial {
             disc: self.disc.as_ref(),
@@ -263,6 +272,20 @@ impl<const D: usize> Model<D> {
         }
         self.regions = regions;
         result
+    }
+
+    /// Internal force of the state at the start of the step.
+    pub(super) fn present_force(&mut self, out: &mut [Vector<D>]) {
+        match self.matrices.linear() {
+            Some(stiffness) => stiffness.apply(&self.nodes.u, out),
+            None => out.fill([0.0; D]),
+        }
+        let (disc, points) = (self.disc.as_ref(), &self.points);
+        for region in &mut self.regions {
+            if let Some(kernel) = region.kernel.explicit() {
+                kernel.present_force(disc, points, out);
+            }
+        }
     }
 
     /// The effective matrix at the trial increment.

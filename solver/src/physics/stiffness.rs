@@ -40,11 +40,12 @@ pub struct Surroundings<'a, const D: usize> {
 }
 
 impl<const D: usize> Matrices<D> {
-    /// Assembles what does not depend on the step.
+    /// Assembles what does not depend on the step; `solved` with room for the effective matrix.
     pub fn new(
         regions: &mut [Region<D>],
         disc: &dyn Discretisation<D>,
         points: &Points<D>,
+        solved: bool,
     ) -> Self {
         let rest = vec![[0.0; D]; disc.node_count()];
         let moment = Moment {
@@ -63,7 +64,11 @@ impl<const D: usize> Matrices<D> {
             linear: assembled(regions, &trial, Stiffness::Linear),
             constant: None,
             constant_dt: f64::NAN,
-            effective: BlockMatrix::zeros(disc.pattern()),
+            effective: if solved {
+                BlockMatrix::zeros(disc.pattern())
+            } else {
+                BlockMatrix::empty(disc.pattern())
+            },
             rates: None,
         }
     }

@@ -127,6 +127,53 @@ impl<const D: usize> System<D> for Model<D> {
         self.check_finite(correction, "the displacement")
     }
 
+    /// `(M + C dt/2 + K dt^2/4) a = f_ext(t_n) - f_int(n) - K u_n - C v`, with C the lumped damping and K
+    /// the springs: v' = v + dt a is then the bilinear map of the lumped terms, the one that memories of
+    /// layers have.
+    fn accelerate(&mut self) -> Result<(), SolverError> {
+        let mut acceleration = std::mem::take(&mut self.nodes.a);
+        let out = &mut acceleration[..];
+        self.present_force(out);
+        for f in out.as_flattened_mut() {
+            *f = -*f;
+        }
+        let lumped = &self.nodes.lumped;
+        subtract_product(out, &lumped.stiffness, &self.nodes.u);
+        subtract_product(out, &lumped.viscous, &self.nodes.v);
+        for term in &self.terms {
+            term.force(self.times[0], &self.nodes.v, &self.nodes.active, out);
+        }
+        let (half, quarter) = (0.5 * self.dt, 0.25 * self.dt * self.dt);
+        let at = |field: &[Vector<D>], n: usize, i: usize| field.get(n).map_or(0.0, |x| x[i]);
+        for (n, (a, held)) in out.iter_mut().zip(&self.constraints.held).enumerate() {
+            for i in 0..D {
+                if held[i] {
+                    a[i] = 0.0;
+                } else {
+                    a[i] /= lumped.mass[n][i]
+                        + half * at(&lumped.viscous, n, i)
+                        + quarter * at(&lumped.stiffness, n, i);
+                }
+            }
+        }
+        self.nodes.a = acceleration;
+        self.check_finite(&self.nodes.a, "the acceleration")
+    }
+
+    fn scale(&self, v: &mut [Vector<D>]) {
+        for term in &self.terms {
+            term.scale(v);
+        }
+    }
+
+    fn impose_between(&self, v: &mut [Vector<D>], a: &mut [Vector<D>]) {
+        for &(node, i, motion) in &self.constraints.driven {
+            let [start, end] = motion.velocity;
+            v[node as usize][i as usize] = 0.5 * (start + end);
+            a[node as usize][i as usize] = (end - start) / self.dt;
+        }
+    }
+
     fn place_of_largest(&self, field: &[Vector<D>]) -> Vec<f64> {
         let size = |n: &usize| field[*n].iter().map(|x| x.abs()).fold(0.0, f64::max);
         let node = (0..field.len())
@@ -140,7 +187,10 @@ impl<const D: usize> System<D> for Model<D> {
         let trial = self.trial(end.increment);
         let mut result = Ok(());
         for region in &mut regions {
-            result = result.and_then(|()| region.kernel.commit(&trial));
+            result = result.and_then(|()| match region.kernel.explicit() {
+                Some(kernel) if self.explicit => kernel.advance(&trial),
+                _ => region.kernel.commit(&trial),
+            });
         }
         self.regions = regions;
         result?;

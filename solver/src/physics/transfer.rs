@@ -5,6 +5,8 @@
 //! a_p' = sum N_I a_I',   v_p' = v_p + dt/2 (a_p + a_p')                     (K25 (15), (19), (20))
 //! ```
 //!
+//! and in explicit steps, where velocities stand between steps, `v_p' = v_p + dt sum N a_I`.
+//!
 //! Nodes that a layer at rest touches keep their motion. Points may carry a factor of inertia for
 //! each direction (K25 (16), (17)) and their displacement (K25 (17a), (18)).
 
@@ -33,7 +35,9 @@ impl<const D: usize> Model<D> {
             *saved = (nodes.v[n as usize], nodes.a[n as usize]);
         }
         self.scatter(Field::Velocity);
-        self.scatter(Field::Acceleration);
+        if !self.explicit {
+            self.scatter(Field::Acceleration);
+        }
         if self.points.motion.as_ref().is_some_and(|m| m.u.is_some()) {
             self.scatter(Field::Displacement);
         }
@@ -100,14 +104,19 @@ impl<const D: usize> Model<D> {
             return;
         };
         let (nodes, disc) = (&self.nodes, &self.disc);
-        let half = 0.5 * self.dt;
+        let rule = if self.explicit {
+            Rule::Leapfrog(self.dt)
+        } else {
+            Rule::Trapezoid(0.5 * self.dt)
+        };
         let (mut vector, mut matrix) = ([[0.0; D]; BLOCK], [zero::<D>(); BLOCK]);
         for block in blocks(0..motion.v.len()) {
             let n = block.len();
             disc.gather(block.clone(), &nodes.a, &mut vector[..n]);
-            let (v, a) = (&mut motion.v[block.clone()], &mut motion.a[block.clone()]);
+            let v = &mut motion.v[block.clone()];
+            let a = rule.old(&mut motion.a, &block);
             let next = vector[..n].as_flattened();
-            advance_rate(v.as_flattened_mut(), a.as_flattened_mut(), next, half);
+            rule.advance(v.as_flattened_mut(), a.as_flattened_mut(), next);
             if self.transfer == Transfer::Pic {
                 disc.gather(block.clone(), &nodes.v, v);
             }
@@ -126,12 +135,12 @@ impl<const D: usize> Model<D> {
             }
             if let Some(l) = &mut motion.gradients {
                 disc.gradient(block.clone(), &nodes.a, &mut matrix[..n]);
-                let (v, a) = (&mut l.v[block.clone()], &mut l.a[block]);
-                advance_rate(
+                let v = &mut l.v[block.clone()];
+                let a = rule.old(&mut l.a, &block);
+                rule.advance(
                     v.as_flattened_mut().as_flattened_mut(),
                     a.as_flattened_mut().as_flattened_mut(),
                     matrix[..n].as_flattened().as_flattened(),
-                    half,
                 );
             }
         }
@@ -217,10 +226,37 @@ fn weigh_rows<'a, const D: usize>(
     out
 }
 
-/// `rate += dt/2 (a + a')`, then `a = a'`.
-fn advance_rate(rate: &mut [f64], a: &mut [f64], next: &[f64], half_step: f64) {
-    for ((v, a), n) in rate.iter_mut().zip(a).zip(next) {
-        *v += half_step * (*a + n);
-        *a = *n;
+/// How a rate moves on through a step.
+#[derive(Clone, Copy)]
+enum Rule {
+    /// `rate += dt/2 (a + a')`, then `a = a'`; with dt/2 (s).
+    Trapezoid(f64),
+    /// `rate += dt a'`; with dt (s).
+    Leapfrog(f64),
+}
+
+impl Rule {
+    /// What the block carries of the step before.
+    fn old<'a, T>(&self, all: &'a mut [T], block: &std::ops::Range<usize>) -> &'a mut [T] {
+        match self {
+            Rule::Trapezoid(_) => &mut all[block.clone()],
+            Rule::Leapfrog(_) => &mut [],
+        }
+    }
+
+    fn advance(&self, rate: &mut [f64], a: &mut [f64], next: &[f64]) {
+        match self {
+            Rule::Trapezoid(half_step) => {
+                for ((v, a), n) in rate.iter_mut().zip(a).zip(next) {
+                    *v += half_step * (*a + n);
+                    *a = *n;
+                }
+            }
+            Rule::Leapfrog(step) => {
+                for (v, n) in rate.iter_mut().zip(next) {
+                    *v += step * n;
+                }
+            }
+        }
     }
 }

@@ -1,9 +1,11 @@
 //! Time integration. Integrators see only a [`System`].
 //!
 //! - [`newmark`]: beta = 1/4, gamma = 1/2.
+//! - [`explicit`]: leapfrog.
 //! - [`quasi_static`]: equilibrium without inertia.
 //! - [`newton`]: the iteration that both share.
 
+pub mod explicit;
 pub mod newmark;
 pub mod newton;
 pub mod quasi_static;
@@ -86,6 +88,20 @@ pub trait System<const D: usize> {
         correction: &mut [Vector<D>],
     ) -> Result<(), SolverError>;
 
+    /// Finds the acceleration of the nodes at the start of an explicit step, 0 where they are held; it is
+    /// that of [`System::motion`] from then on.
+    ///
+    /// # Errors
+    /// An acceleration that is not finite.
+    fn accelerate(&mut self) -> Result<(), SolverError>;
+
+    /// Scales the velocities that an explicit step has found, where terms do so.
+    fn scale(&self, v: &mut [Vector<D>]);
+
+    /// Puts driven velocities between start and end of an explicit step, and the accelerations that
+    /// lead to its end, on their values.
+    fn impose_between(&self, v: &mut [Vector<D>], a: &mut [Vector<D>]);
+
     /// Where a nodal field is largest (m).
     fn place_of_largest(&self, field: &[Vector<D>]) -> Vec<f64>;
 
@@ -99,6 +115,20 @@ pub trait System<const D: usize> {
 
 /// An integrator: makes one step at a time.
 pub trait Integrator<const D: usize>: Send {
+    /// Looks at the state at `times[0]`, before the step to `times[1]` is made: explicit steps find the
+    /// acceleration there, which says what the velocity is.
+    ///
+    /// # Errors
+    /// Those of the system.
+    fn prepare(
+        &mut self,
+        _system: &mut dyn System<D>,
+        _times: [f64; 2],
+        _moment: Moment,
+    ) -> Result<(), SolverError> {
+        Ok(())
+    }
+
     /// Makes the step from `times[0]` to `times[1]`; returns Newton's iterations.
     ///
     /// # Errors

@@ -67,6 +67,11 @@ pub(super) const PRESETS: &[Overlay] = &[
         "source.amplitude_m_s = 1e-3",
     ),
     Overlay::new(
+        "explicit",
+        "leapfrog with S21's step, 0.4 of the time through a cell",
+        "time.scheme = 'explicit'",
+    ),
+    Overlay::new(
         "printed",
         "Poisson's ratio 0.3 as printed: 17.6 m/s",
         "material.nu = 0.3",

@@ -97,6 +97,11 @@ pub(super) const PRESETS: &[Overlay] = &[
         points = { mode = 'frozen', transfer = 'keep' }",
     ),
     Overlay::new(
+        "explicit",
+        "leapfrog, at 0.55 of the time through a cell",
+        "time.scheme = 'explicit'",
+    ),
+    Overlay::new(
         "paper-transfer",
         "the paper's own transfer between points and nodes (flip), with its own layer",
         "points.transfer = 'flip'

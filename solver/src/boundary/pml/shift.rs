@@ -172,13 +172,7 @@ impl<const D: usize> ShiftedInertia<D> {
         self.advance(trial);
         if !self.consistent {
             self.lump(trial.disc, trial.points, layer);
-            for (weight, theta) in self.lumped.iter().zip(&self.next) {
-                for ((f, w), x) in out.iter_mut().zip(weight).zip(theta) {
-                    for i in 0..D {
-                        f[i] += w[i] * x[i];
-                    }
-                }
-            }
+            add_products(&self.lumped, &self.next, out);
             return;
         }
         let (mut sum, mut part) = ([[0.0; D]; BLOCK], [[0.0; D]; BLOCK]);
@@ -195,6 +189,18 @@ impl<const D: usize> ShiftedInertia<D> {
             let mass = &trial.points.mass[block.clone()];
             trial.disc.scatter_vector(block, mass, sum, out);
         }
+    }
+
+    /// Adds `T_1 theta_1 + T_2 theta_2` of the present, which explicit steps ask for.
+    pub fn present_force(
+        &mut self,
+        disc: &dyn Discretisation<D>,
+        points: &Points<D>,
+        layer: Layer<'_, D>,
+        out: &mut [Vector<D>],
+    ) {
+        self.lump(disc, points, layer);
+        add_products(&self.lumped, &self.theta, out);
     }
 
     /// Adds the force's derivative, `T_1 Q + T_2 Q^2`.
@@ -224,6 +230,21 @@ impl<const D: usize> ShiftedInertia<D> {
     pub fn commit(&mut self, trial: &Trial<'_, D>) {
         self.advance(trial);
         std::mem::swap(&mut self.theta, &mut self.next);
+    }
+}
+
+/// Adds the products of the nodes' weights and memories.
+fn add_products<const D: usize>(
+    weights: &[Vec<Vector<D>>; 2],
+    memories: &[Vec<Vector<D>>; 2],
+    out: &mut [Vector<D>],
+) {
+    for (weight, theta) in weights.iter().zip(memories) {
+        for ((f, w), x) in out.iter_mut().zip(weight).zip(theta) {
+            for i in 0..D {
+                f[i] += w[i] * x[i];
+            }
+        }
     }
 }
 
