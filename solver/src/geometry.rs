@@ -41,9 +41,12 @@ impl<const D: usize> Geometry<D> {
                 } else {
                     material_box.lower[axis] -= layout.outside;
                 }
-                if moving && layout.end == End::Free {
-                    margin[axis][usize::from(upper)] = MARGIN_CELLS;
-                }
+                let room = whole_cells(problem.flow.room[axis][usize::from(upper)], h[axis]);
+                let least = match moving && layout.end == End::Free {
+                    true => MARGIN_CELLS,
+                    false => 0,
+                };
+                margin[axis][usize::from(upper)] = least.max(room as usize);
                 assigned.push(Assigned {
                     side,
                     method: method.clone(),

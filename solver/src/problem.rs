@@ -3,6 +3,9 @@
 //! Plain data; [`crate::solve`] turns it into grid, points and kernels.
 
 use crate::boundary::SideMethod;
+use crate::contact::Contact;
+use crate::contact::body::RigidBody;
+use crate::material::strength::Strength;
 use crate::probe::Probes;
 use crate::wavelet::Pulse;
 use serde::{Deserialize, Serialize};
@@ -187,6 +190,65 @@ pub enum Drive<const D: usize> {
     },
 }
 
+/// When in an explicit step the stress moves on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StressUpdate {
+    /// Last, by the new velocities of the nodes.
+    #[default]
+    Usl,
+    /// Last, by velocities that the points have sent to the nodes once more.
+    Musl,
+}
+
+/// A rigid body that moves as prescribed, and how it touches the soil.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Intruder {
+    /// Name in series, for example `pipe`.
+    pub name: String,
+    /// Outline and motion; in three dimensions a prism along z.
+    pub body: RigidBody,
+    /// Friction and reach.
+    pub contact: Contact,
+}
+
+/// What moving material in explicit steps may have besides; the default is elastic, at rest, without
+/// weight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlowSetup<const D: usize> {
+    /// What bounds the shear stress.
+    pub strength: Strength,
+    /// When the stress moves on.
+    pub update: StressUpdate,
+    /// Share of the nodes' velocity that points take over in a step, 0..1 (`flip` alone).
+    pub pic_share: f64,
+    /// Acceleration of the weight (m/s2), buoyancy taken off; along the second axis.
+    pub gravity: f64,
+    /// Ratio of horizontal to vertical stress at the start under the weight; `None`: free of stress.
+    pub k0: Option<f64>,
+    /// Velocity at the start (m/s); layers and walls of the sides move along.
+    pub velocity: [f64; D],
+    /// Rigid bodies.
+    pub intruders: Vec<Intruder>,
+    /// Empty space around the material (m): `room[axis][0]` below, `room[axis][1]` above.
+    pub room: [[f64; 2]; D],
+}
+
+impl<const D: usize> Default for FlowSetup<D> {
+    fn default() -> Self {
+        FlowSetup {
+            strength: Strength::Elastic,
+            update: StressUpdate::Usl,
+            pic_share: 0.0,
+            gravity: 0.0,
+            k0: None,
+            velocity: [0.0; D],
+            intruders: Vec::new(),
+            room: [[0.0; 2]; D],
+        }
+    }
+}
+
 /// Everything that a solve needs.
 #[derive(Clone, Debug)]
 pub struct Problem<const D: usize> {
@@ -212,6 +274,8 @@ pub struct Problem<const D: usize> {
     pub points_per_cell: usize,
     /// The material of target and layers.
     pub material: Elastic,
+    /// What explicit steps of moving points have besides.
+    pub flow: FlowSetup<D>,
     /// The boundary method of each side: `sides[axis][0]` lower, `sides[axis][1]` upper.
     pub sides: [[SideMethod; 2]; D],
     /// What drives it.
