@@ -8,6 +8,7 @@
 //! | [`boundary`] | one file a boundary method |
 //! | [`grid`], [`points`], [`basis`] | background grid, material points, shape functions |
 //! | [`material`] | one file a constitutive model |
+//! | [`contact`] | rigid bodies that touch the soil |
 //! | [`physics`] | region kernels, terms on nodes, the model that joins them |
 //! | [`time`], [`linear`] | integrators, Newton, sparse solvers |
 //! | [`record`], [`error`] | what comes out |
@@ -16,6 +17,7 @@
 pub mod basis;
 mod bill;
 pub mod boundary;
+pub mod contact;
 mod drive;
 pub mod error;
 pub mod geometry;

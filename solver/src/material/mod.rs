@@ -1,7 +1,11 @@
 //! Constitutive models, one file each. Chosen once a region, called once a block of points.
 
+pub mod flow;
+pub mod herschel_bulkley;
 pub mod law;
 pub mod linear_elastic;
+pub mod strength;
+pub mod von_mises;
 
 use crate::tensor::{Matrix, Tensor4};
 
