@@ -112,6 +112,7 @@ mod tests {
             status: Status::Complete,
             receivers: SeriesTable::default(),
             energy: SeriesTable::default(),
+            bodies: SeriesTable::default(),
             lines: Vec::new(),
             snapshots: problem.probes.snapshot_times.iter().map(snapshot).collect(),
             cost: Cost::default(),

@@ -56,6 +56,7 @@ impl HalfSpace {
             transfer: self.points.transfer,
             points_per_cell: self.points.per_cell,
             material: self.material.elastic(),
+            flow: FlowSetup::default(),
             sides: self.boundary.sides(),
             drives: vec![self.source.force()],
             probes: Probes {

@@ -181,6 +181,7 @@ mod tests {
             status: Status::Complete,
             receivers: SeriesTable::default(),
             energy: SeriesTable::default(),
+            bodies: SeriesTable::default(),
             lines: Vec::new(),
             snapshots: Vec::new(),
             cost: Cost::default(),

@@ -148,6 +148,7 @@ fn nothing(reason: String) -> Record {
         status: Status::Failed(reason),
         receivers: SeriesTable::default(),
         energy: SeriesTable::default(),
+        bodies: SeriesTable::default(),
         lines: Vec::new(),
         snapshots: Vec::new(),
         cost: Cost::default(),

@@ -230,6 +230,8 @@ pub struct FlowSetup<const D: usize> {
     pub velocity: [f64; D],
     /// Rigid bodies.
     pub intruders: Vec<Intruder>,
+    /// Share the work of a step with the threads of the pool that the run is in?
+    pub shared: bool,
     /// Empty space around the material (m): `room[axis][0]` below, `room[axis][1]` above.
     pub room: [[f64; 2]; D],
 }
@@ -244,6 +246,7 @@ impl<const D: usize> Default for FlowSetup<D> {
             k0: None,
             velocity: [0.0; D],
             intruders: Vec::new(),
+            shared: false,
             room: [[0.0; 2]; D],
         }
     }

@@ -126,6 +126,10 @@ pub struct Record {
     /// Energies (J per metre of thickness in 2D): columns `kinetic`, `strain` of the target,
     /// `total` of everything; and `momentum_x`, `momentum_y` (kg m/s per metre) of everything.
     pub energy: SeriesTable,
+    /// Rigid bodies, after every step: columns `NAME_fx`, `NAME_fy` (N, per metre of thickness in 2D), the
+    /// force of the soil; `NAME_wx`, `NAME_wy` (m), the way from the start; `NAME_in` (m), the depth of the
+    /// deepest point inside. Empty where there are none.
+    pub bodies: SeriesTable,
     /// Fields along lines.
     pub lines: Vec<SpaceTime>,
     /// Fields on lattices.

@@ -34,10 +34,11 @@ pub(crate) fn run_model<const D: usize>(
         status: Status::Complete,
         receivers: SeriesTable::default(),
         energy: SeriesTable::default(),
+        bodies: SeriesTable::default(),
         lines: Vec::new(),
         snapshots: Vec::new(),
         cost: Cost {
-            points: model.points.len(),
+            points: model.point_count(),
             ..Cost::default()
         },
     };

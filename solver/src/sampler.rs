@@ -8,6 +8,9 @@ use crate::tensor::Vector;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// What is recorded of a rigid body.
+const BODY: [(&str, &str); 5] = [("fx", "N"), ("fy", "N"), ("wx", "m"), ("wy", "m"), ("in", "m")];
+
 /// A tracer with its nodes.
 struct Tracer<const D: usize> {
     place: Vector<D>,
@@ -62,6 +65,12 @@ impl<const D: usize> Sampler<D> {
                     "kg m/s",
                     samples,
                 );
+            }
+        }
+        for reading in model.terms.iter().filter_map(|term| term.reading()) {
+            for (quantity, unit) in BODY {
+                let name = format!("{}_{quantity}", reading.name);
+                push(&mut record.bodies, name, unit, samples);
             }
         }
         let lines = probes.lines.iter().map(|line| {
@@ -122,6 +131,9 @@ impl<const D: usize> Sampler<D> {
         t: f64,
         record: &mut Record,
     ) {
+        if step > 0 {
+            bodies(model, t, &mut record.bodies);
+        }
         for ((line, samples), out) in problem
             .probes
             .lines
@@ -249,6 +261,21 @@ fn push(table: &mut SeriesTable, name: String, unit: &str, samples: usize) {
         unit: unit.to_owned(),
         values: Vec::with_capacity(samples),
     });
+}
+
+/// What bodies have to say of the step that ended at `t` (s).
+fn bodies<const D: usize>(model: &Model<D>, t: f64, out: &mut SeriesTable) {
+    let readings = model.terms.iter().filter_map(|term| term.reading());
+    let columns = out.columns.chunks_exact_mut(BODY.len());
+    for (reading, columns) in readings.zip(columns) {
+        let ([fx, fy], [wx, wy]) = (reading.force, reading.way);
+        for (column, value) in columns.iter_mut().zip([fx, fy, wx, wy, reading.penetration]) {
+            column.values.push(value);
+        }
+    }
+    if !out.columns.is_empty() {
+        out.times.push(t);
+    }
 }
 
 fn energy<const D: usize>(model: &Model<D>, t: f64, out: &mut SeriesTable) {

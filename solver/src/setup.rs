@@ -1,5 +1,7 @@
 //! From a problem to a model: points, regions, terms.
 
+mod flowing;
+
 use crate::basis::on_grid;
 use crate::boundary::{self, Assigned, Context, DisplacementTransfer, LayerPoints};
 use crate::drive::{PointForce, SideDrive};
@@ -9,6 +11,7 @@ use crate::linear::LinearSolver;
 use crate::material::MaterialBlock;
 use crate::material::linear_elastic::LinearElastic;
 use crate::physics::bulk::{Carried, Kept};
+use crate::physics::flowing::Flowing;
 use crate::physics::kernel::{NodeTerm, RegionKernel};
 use crate::physics::model::{Model, Parts, Region};
 use crate::points::Points;
@@ -23,7 +26,12 @@ use std::ops::Range;
 pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverError> {
     let geometry = Geometry::new(problem)?;
     let frozen = problem.point_mode == PointMode::Frozen;
-    let Filled { mut points, ranges } = fill(problem, &geometry)?;
+    flowing::check(problem)?;
+    let Filled {
+        mut points,
+        mut ranges,
+    } = fill(problem, &geometry)?;
+    let flow = take_flowing(problem, &geometry, &mut points, &mut ranges)?;
     let mut regions = Vec::new();
     let mut terms = Vec::new();
     let mut first_kept = points.len();
@@ -71,7 +79,11 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
     }
     points.inertia = inertia;
     terms.extend(drives(problem, &geometry));
-    if problem.transfer != Transfer::Keep && problem.scheme != Scheme::QuasiStatic {
+    if let Some(flow) = &flow {
+        terms.extend(flowing::intruders(problem, &geometry, flow)?);
+    }
+    let carries = flow.is_none() && problem.transfer != Transfer::Keep;
+    if carries && problem.scheme != Scheme::QuasiStatic {
         let affine = problem.transfer == Transfer::Affine;
         points.carry_motion(first_kept, affine, problem.scheme != Scheme::Explicit);
         if let (Some(_), Some(motion)) = (displacement, points.motion.as_mut()) {
@@ -90,6 +102,7 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
         points,
         regions,
         terms,
+        flow,
         movable: (!frozen).then_some(movable),
         first_kept: if problem.transfer == Transfer::Keep {
             0
@@ -101,6 +114,29 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
         consistent: problem.mass == MassKind::Consistent,
         explicit: problem.scheme == Scheme::Explicit,
     })
+}
+
+/// Takes the points that explicit steps move out of all, if there are such.
+fn take_flowing<const D: usize>(
+    problem: &Problem<D>,
+    geometry: &Geometry<D>,
+    points: &mut Points<D>,
+    ranges: &mut Vec<(Owner, Range<usize>)>,
+) -> Result<Option<Flowing<D>>, SolverError> {
+    if !flowing::flows(problem) {
+        return Ok(None);
+    }
+    let (bulk, layers): (Vec<_>, Vec<_>) = std::mem::take(ranges)
+        .into_iter()
+        .partition(|(owner, _)| !matches!(owner, Owner::Layer(..)));
+    let bulk: Vec<Range<usize>> = bulk.into_iter().map(|(_, range)| range).collect();
+    let first = bulk.last().map_or(0, |range| range.end);
+    let rest = flowing::without_flowing(points, first);
+    let flow = flowing::flowing(problem, geometry, points, &bulk, &rest)?;
+    let moved = |(owner, r): (Owner, Range<usize>)| (owner, r.start - first..r.end - first);
+    *ranges = layers.into_iter().map(moved).collect();
+    *points = rest;
+    Ok(Some(flow))
 }
 
 /// The kernel of plain material.
@@ -174,6 +210,7 @@ fn context<'a, const D: usize>(
         material_box: geometry.material_box,
         material: problem.material,
         moving: problem.point_mode == PointMode::Moving,
+        velocity: problem.flow.velocity,
         transfer: problem.transfer,
         mass: problem.mass,
         explicit: problem.scheme == Scheme::Explicit,

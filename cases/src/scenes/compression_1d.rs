@@ -131,6 +131,7 @@ impl Scene for Compression1d {
             transfer: self.points.transfer,
             points_per_cell: self.points.per_cell,
             material: self.material.elastic(),
+            flow: FlowSetup::default(),
             sides: self.boundary.sides(),
             drives: vec![Drive::SideVelocity {
                 side: Side::TOP,

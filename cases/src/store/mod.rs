@@ -5,7 +5,7 @@
 //! | `scene.toml` | the scene as run; `anechoic run scene.toml` runs it again |
 //! | `manifest.json` | status, cost, provenance |
 //! | `metrics.json` | the rows of this run |
-//! | `receivers.csv`, `energy.csv` | series |
+//! | `receivers.csv`, `energy.csv`, `bodies.csv` (where there are rigid bodies) | series |
 //! | `fields.pvd`, `fields/*.vtu` | fields for ParaView, where they were asked for |
 //! | `record.json` | names and units of the series' columns, fields along lines, snapshots |
 //! | `SHA256SUMS` | hashes of the files that reports are made from, by which a record that is no longer whole is found |
@@ -110,6 +110,8 @@ const UNFINISHED: &str = ".unfinished-";
 struct Fields {
     receivers: Vec<ColumnHead>,
     energy: Vec<ColumnHead>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    bodies: Vec<ColumnHead>,
     lines: Vec<SpaceTime>,
     snapshots: Vec<Snapshot>,
 }
@@ -186,6 +188,7 @@ impl Store {
         let fields = Fields {
             receivers: table::heads(&record.receivers),
             energy: table::heads(&record.energy),
+            bodies: table::heads(&record.bodies),
             lines: record.lines.clone(),
             snapshots: record.snapshots.clone(),
         };
@@ -197,6 +200,9 @@ impl Store {
             ("energy.csv", table::write(&record.energy)?),
             ("record.json", compact_json(&fields)?),
         ];
+        if !record.bodies.columns.is_empty() {
+            files.push(("bodies.csv", table::write(&record.bodies)?));
+        }
         files.push((SUMS, sums::write(&files).into_bytes()));
         for (name, content) in &files {
             std::fs::write(new.path().join(name), content)
@@ -255,6 +261,10 @@ pub fn load(folder: &Path) -> Result<Run, CaseError> {
         status: manifest.status.clone(),
         receivers: series("receivers.csv", &fields.receivers)?,
         energy: series("energy.csv", &fields.energy)?,
+        bodies: match fields.bodies.is_empty() {
+            true => SeriesTable::default(),
+            false => series("bodies.csv", &fields.bodies)?,
+        },
         lines: fields.lines,
         snapshots: fields.snapshots,
         cost: manifest.cost.clone(),

@@ -16,9 +16,10 @@
 //! holds.
 
 use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
-use super::{Context, End, Layout, Parts, walls};
+use super::{Assigned, Context, End, Layout, Parts, inflow, walls};
 use crate::error::SolverError;
-use crate::physics::kernel::{Lumped, NodeTerm};
+use crate::grid::Grid;
+use crate::physics::kernel::{Lumped, NodeTerm, Step};
 use crate::problem::{Problem, Scheme, Side, Transfer};
 use crate::tensor::Vector;
 
@@ -80,7 +81,7 @@ pub static METHOD: MethodInfo = MethodInfo {
         Param {
             name: "end",
             doc: "condition behind the layer",
-            kind: ParamKind::Choice(&["fixed", "roller", "free"]),
+            kind: ParamKind::Choice(&["fixed", "roller", "free", "inflow"]),
         },
     ],
     ladder: &[
@@ -147,6 +148,10 @@ pub(crate) fn layout<const D: usize>(
     let end = match method.choice(&METHOD, "end") {
         "free" => End::Free,
         "roller" => End::Roller,
+        "inflow" => {
+            inflow::check(problem, side)?;
+            End::Inflow
+        }
         _ => End::Fixed,
     };
     if method.choice(&METHOD, "placement") == "outside" {
@@ -173,73 +178,123 @@ pub(crate) fn layout<const D: usize>(
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
-    let nodes = context.grid.node_count();
-    let (mut rate, mut factor) = (vec![0.0_f64; nodes], vec![0.0_f64; nodes]);
-    for assigned in &context.sides {
+    let profiles: Vec<Profile> = context.sides.iter().map(|a| Profile::of(context, a)).collect();
+    let mut terms = walls(context);
+    if context.velocity != [0.0; D] || profiles.iter().any(|p| p.printed) {
+        terms.push(Box::new(ScaledVelocities {
+            profiles,
+            grid: context.grid.clone(),
+            velocity: context.velocity,
+        }));
+        return Ok(Parts::of_terms(terms));
+    }
+    let rate = |n: usize| (n as u32, strongest(&profiles, &context.grid.node_place(n), [0.0; D]).0);
+    let nodes = (0..context.grid.node_count()).map(rate);
+    let nodes = nodes.filter(|(_, rate)| *rate != 0.0).collect();
+    terms.push(Box::new(DampingLayer { nodes }));
+    Ok(Parts::of_terms(terms))
+}
+
+/// How the layer of a side grows.
+struct Profile {
+    side: Side,
+    /// Coordinate of the inner edge at the start (m).
+    inner_edge: f64,
+    thickness: f64,
+    /// Rate (1/s), or S21's beta, at the outer end.
+    largest: f64,
+    power: f64,
+    printed: bool,
+}
+
+impl Profile {
+    fn of<const D: usize>(context: &Context<'_, D>, assigned: &Assigned) -> Self {
         let (side, layout) = (assigned.side, assigned.layout);
         let thickness = layout.outside + layout.inside;
         let number = |key: &str| assigned.method.number(&METHOD, key);
         let printed = assigned.method.choice(&METHOD, "form") == "printed";
-        let (largest, power, field) = match printed {
-            true => (number("alpha_per_m") * thickness, 1.0, &mut factor),
-            false => (number("sigma_max_per_s"), number("power"), &mut rate),
+        let (largest, power) = match printed {
+            true => (number("alpha_per_m") * thickness, 1.0),
+            false => (number("sigma_max_per_s"), number("power")),
         };
-        let inwards = if side.upper {
-            -layout.inside
-        } else {
-            layout.inside
-        };
-        let inner_edge = context.plane(side) + inwards;
-        for (node, rate) in field.iter_mut().enumerate() {
-            let x = context.grid.node_place(node)[side.axis];
-            let depth = if side.upper {
-                x - inner_edge
-            } else {
-                inner_edge - x
-            };
-            if depth > 0.0 {
-                let here = largest * (depth / thickness).min(1.0).powf(power);
-                // the larger in size, so that a layer of negative rate feeds energy in and is found out
-                if here.abs() > rate.abs() {
-                    *rate = here;
-                }
-            }
+        let inwards = if side.upper { -layout.inside } else { layout.inside };
+        Profile {
+            side,
+            inner_edge: context.plane(side) + inwards,
+            thickness,
+            largest,
+            power,
+            printed,
         }
     }
-    let mut terms = walls(context);
-    terms.push(Box::new(DampingLayer {
-        nodes: damped(&rate),
-        factors: damped(&factor),
-    }));
-    Ok(Parts::of_terms(terms))
+
+    /// Rate or beta at `x` (m), `moved` (m) from where the layer started.
+    fn at<const D: usize>(&self, x: &Vector<D>, moved: &Vector<D>) -> f64 {
+        let axis = self.side.axis;
+        let beyond = x[axis] - moved[axis] - self.inner_edge;
+        let depth = if self.side.upper { beyond } else { -beyond };
+        if depth <= 0.0 {
+            return 0.0;
+        }
+        self.largest * (depth / self.thickness).min(1.0).powf(self.power)
+    }
 }
 
-fn damped(strength: &[f64]) -> Vec<(u32, f64)> {
-    let nodes = strength.iter().enumerate().filter(|(_, s)| **s != 0.0);
-    nodes.map(|(n, s)| (n as u32, *s)).collect()
+/// The rate or beta at `x` (m) and whether it is beta: the larger in size, so that a layer of negative
+/// rate feeds energy in and is found out.
+fn strongest<const D: usize>(profiles: &[Profile], x: &Vector<D>, moved: Vector<D>) -> (f64, bool) {
+    let mut found = (0.0_f64, false);
+    for profile in profiles {
+        let here = profile.at(x, &moved);
+        if here.abs() > found.0.abs() {
+            found = (here, profile.printed);
+        }
+    }
+    found
 }
 
-/// Nodes with their damping rates (1/s), or with S21's beta.
+/// Nodes with their damping rates (1/s).
 struct DampingLayer {
     nodes: Vec<(u32, f64)>,
-    factors: Vec<(u32, f64)>,
 }
 
 impl<const D: usize> NodeTerm<D> for DampingLayer {
-    fn scale(&self, v: &mut [Vector<D>]) {
-        for &(node, beta) in &self.factors {
-            for v in &mut v[node as usize] {
-                *v *= 1.0 - beta;
-            }
-        }
-    }
-
-    fn lump(&self, out: &mut Lumped<D>) {
+    fn lump(&self, _t: f64, out: &mut Lumped<D>) {
         for &(node, rate) in &self.nodes {
             let node = node as usize;
             for i in 0..D {
                 let damping = rate * out.mass[node][i];
                 out.viscous_mut()[node][i] += damping;
+            }
+        }
+    }
+}
+
+/// Velocities less that of the material scaled in every explicit step, by 1 - beta or exp(-sigma dt), in
+/// a layer that moves with the material.
+struct ScaledVelocities<const D: usize> {
+    profiles: Vec<Profile>,
+    grid: Grid<D>,
+    /// Velocity of the material without waves (m/s).
+    velocity: Vector<D>,
+}
+
+impl<const D: usize> NodeTerm<D> for ScaledVelocities<D> {
+    fn correct(&mut self, step: &Step<'_, D>, v: &mut [Vector<D>]) {
+        let [start, end] = step.times;
+        let moved = self.velocity.map(|v| v * start);
+        for (node, v) in v.iter_mut().enumerate() {
+            if step.mass[node][0] <= 0.0 {
+                continue;
+            }
+            let x = self.grid.node_place(node);
+            let keep = match strongest(&self.profiles, &x, moved) {
+                (strength, _) if strength == 0.0 => continue,
+                (beta, true) => 1.0 - beta,
+                (rate, false) => (-rate * (end - start)).exp(),
+            };
+            for i in 0..D {
+                v[i] = self.velocity[i] + keep * (v[i] - self.velocity[i]);
             }
         }
     }

@@ -74,6 +74,7 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
             surface,
             impedance,
             moving: context.moving,
+            velocity: context.velocity,
             lumped: context.explicit,
         }) as Box<dyn NodeTerm<D>>
     });
@@ -86,8 +87,27 @@ struct Dashpot<const D: usize> {
     /// Impedance in each direction (kg/(m2 s)).
     impedance: Vector<D>,
     moving: bool,
+    /// What the material moves at without waves (m/s): the dashpot moves along.
+    velocity: Vector<D>,
     /// Are its rows summed to the nodes?
     lumped: bool,
+}
+
+impl<const D: usize> Dashpot<D> {
+    /// Tells `give` the area (m2) that each node `with` mass has of the side.
+    fn shares(&self, with: impl Fn(usize) -> bool, mut give: impl FnMut(usize, f64)) {
+        for sample in &self.surface.samples {
+            let pairs = || {
+                let pairs = sample.nodes.iter().zip(&sample.weights);
+                let pairs = pairs.map(|(n, w)| (*n as usize, *w));
+                pairs.filter(|(n, _)| with(*n))
+            };
+            let total: f64 = pairs().map(|(_, w)| w).sum();
+            for (node, w) in pairs() {
+                give(node, self.surface.area * w / total);
+            }
+        }
+    }
 }
 
 impl<const D: usize> NodeTerm<D> for Dashpot<D> {
@@ -95,28 +115,32 @@ impl<const D: usize> NodeTerm<D> for Dashpot<D> {
         self.surface.attach(disc)
     }
 
-    fn lump(&self, out: &mut Lumped<D>) {
+    fn lump(&self, _t: f64, out: &mut Lumped<D>) {
         if !self.lumped {
             return;
         }
         out.viscous_mut();
         let Lumped { mass, viscous, .. } = out;
-        for sample in &self.surface.samples {
-            let seen = || {
-                let pairs = sample.nodes.iter().zip(&sample.weights);
-                pairs.filter(|(n, _)| mass[**n as usize][0] > 0.0)
-            };
-            let total: f64 = seen().map(|(_, w)| w).sum();
-            for (&node, w) in seen() {
-                for i in 0..D {
-                    viscous[node as usize][i] += self.surface.area * w / total * self.impedance[i];
-                }
+        let has_mass = |node: usize| mass[node][0] > 0.0;
+        self.shares(has_mass, |node, share| {
+            for i in 0..D {
+                viscous[node][i] += share * self.impedance[i];
             }
-        }
+        });
     }
 
     fn force(&self, _t: f64, v: &[Vector<D>], active: &[bool], out: &mut [Vector<D>]) {
         if self.lumped {
+            if self.velocity != [0.0; D] {
+                self.shares(
+                    |node| active[node],
+                    |node, share| {
+                        for i in 0..D {
+                            out[node][i] += share * self.impedance[i] * self.velocity[i];
+                        }
+                    },
+                );
+            }
             return;
         }
         for sample in &self.surface.samples {

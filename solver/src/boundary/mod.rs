@@ -29,6 +29,8 @@ pub enum End {
     Roller,
     /// All displacements are held.
     Fixed,
+    /// The normal velocity is that of the material at the start, and the end moves along.
+    Inflow,
 }
 
 /// What a method makes of a side.
@@ -90,6 +92,8 @@ pub struct Context<'a, const D: usize> {
     pub material: Elastic,
     /// Do points move?
     pub moving: bool,
+    /// Velocity of all material at the start (m/s).
+    pub velocity: Vector<D>,
     /// Transfer between points and nodes.
     pub transfer: Transfer,
     /// How the inertia of points reaches the nodes.
@@ -193,6 +197,7 @@ methods! {
     pml,
     pml_stretched,
     extended,
+    inflow,
 }
 
 /// The method called `name`.
@@ -214,7 +219,13 @@ fn unknown(side: Side, method: &SideMethod) -> SolverError {
 
 /// Terms that hold the outer ends of the sides in `context`.
 pub(crate) fn walls<const D: usize>(context: &Context<'_, D>) -> Vec<Box<dyn NodeTerm<D>>> {
-    let held = context.sides.iter().filter(|s| s.layout.end != End::Free);
-    held.map(|s| Box::new(wall::Wall::new(context, s.side, s.layout.end)) as Box<dyn NodeTerm<D>>)
-        .collect()
+    let ends = context.sides.iter();
+    let term = |s: &Assigned| -> Option<Box<dyn NodeTerm<D>>> {
+        match s.layout.end {
+            End::Free => None,
+            End::Inflow => Some(Box::new(inflow::MovingEnd::new(context, s.side))),
+            held => Some(Box::new(wall::Wall::new(context, s.side, held))),
+        }
+    };
+    ends.filter_map(term).collect()
 }

@@ -144,6 +144,11 @@ pub(crate) fn layout<const D: usize>(
             "unstable with points.transfer = \"flip\", whose motion is filtered and the layer's damping is not; use \"affine\", or pml.with_flip = \"force\" to see it grow",
         );
     }
+    if problem.flow.velocity != [0.0; D] {
+        return refuse(
+            "the layer stands still, and material that flows through it is reflected; use damping-layer, which moves along",
+        );
+    }
     one_shift(problem, side, method)?;
     let outside = method
         .given_number("thickness_m")

@@ -36,6 +36,7 @@
 
 pub mod body;
 pub mod shape;
+pub(crate) mod term;
 
 use crate::tensor::{Vector, dot};
 

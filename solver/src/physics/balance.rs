@@ -13,6 +13,7 @@ impl<const D: usize> Model<D> {
                 r.kernel
                     .strain_energy(self.disc.as_ref(), &self.points, &self.nodes.u)
             })
+            .chain(self.flow.iter().map(|flow| flow.strain_energy(target_only)))
             .sum()
     }
 
@@ -46,7 +47,8 @@ impl<const D: usize> Model<D> {
                 }
             }
         }
-        energy
+        let flow = self.flow.iter().map(|f| f.kinetic_energy(target_only));
+        energy + flow.sum::<f64>()
     }
 
     /// Linear momentum of everything (kg m/s).
@@ -65,6 +67,12 @@ impl<const D: usize> Model<D> {
                 for i in 0..D {
                     sum[i] += m * v[i];
                 }
+            }
+        }
+        if let Some(flow) = &self.flow {
+            let own = flow.momentum();
+            for i in 0..D {
+                sum[i] += own[i];
             }
         }
         sum

@@ -203,13 +203,37 @@ impl<const D: usize> Constraints<D> {
     }
 }
 
+/// An explicit step, as what corrects its velocities sees it.
+#[derive(Clone, Copy)]
+pub struct Step<'a, const D: usize> {
+    /// Start and end (s).
+    pub times: [f64; 2],
+    /// Masses of the nodes (kg).
+    pub mass: &'a [Vector<D>],
+    /// Places of the moving points (m).
+    pub places: &'a [Vector<D>],
+}
+
+/// A number of a rigid body after a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading<'a> {
+    /// The body's name.
+    pub name: &'a str,
+    /// Force of the soil on it (N, per metre of thickness in 2D).
+    pub force: [f64; 2],
+    /// Its way from the start (m).
+    pub way: [f64; 2],
+    /// Depth of the deepest point in it (m).
+    pub penetration: f64,
+}
+
 /// A term on nodes: what holds, drives, damps or loads them.
 pub trait NodeTerm<const D: usize>: Send {
     /// Holds unknowns during the step from `times[0]` to `times[1]` (s).
     fn constrain(&self, _times: [f64; 2], _out: &mut Constraints<D>) {}
 
-    /// Adds lumped damping, in terms of the nodes' masses.
-    fn lump(&self, _out: &mut Lumped<D>) {}
+    /// Adds lumped damping at time `t` (s), in terms of the nodes' masses.
+    fn lump(&self, _t: f64, _out: &mut Lumped<D>) {}
 
     /// Adds the force on the nodes at time `t` (s) and velocity `v` (m/s).
     fn force(&self, _t: f64, _v: &[Vector<D>], _active: &[bool], _out: &mut [Vector<D>]) {}
@@ -217,8 +241,13 @@ pub trait NodeTerm<const D: usize>: Send {
     /// Adds minus the derivative of the force with respect to the velocity, times `rate` (1/s).
     fn tangent(&self, _rate: f64, _active: &[bool], _out: &mut BlockMatrix<D>) {}
 
-    /// Scales the velocities (m/s) that an explicit step has found.
-    fn scale(&self, _v: &mut [Vector<D>]) {}
+    /// Corrects the velocities (m/s) that an explicit step has found.
+    fn correct(&mut self, _step: &Step<'_, D>, _v: &mut [Vector<D>]) {}
+
+    /// What the term has to say after a step, for the record.
+    fn reading(&self) -> Option<Reading<'_>> {
+        None
+    }
 
     /// Finds the nodes of what is attached to the material. `Err` names a place outside the grid.
     ///

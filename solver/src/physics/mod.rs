@@ -2,6 +2,7 @@
 //!
 //! - [`kernel`]: what a region of points and a term on nodes have to say.
 //! - [`bulk`]: plain solid, kept on nodes or carried by points.
+//! - [`flowing`]: points that explicit steps move.
 //! - [`model`]: points, nodes, regions and terms joined; `system` is what integrators see of it,
 //!   [`stiffness`] its matrices, [`inertia`] its lumped or consistent masses, [`transfer`] the motion
 //!   between points and nodes, [`balance`] its energy and momentum, `hold` its held, driven and
@@ -9,6 +10,7 @@
 
 pub mod balance;
 pub mod bulk;
+pub mod flowing;
 mod hold;
 pub mod inertia;
 pub mod kernel;

@@ -1,5 +1,6 @@
 //! The semi-discrete system: points, nodes, regions and terms joined.
 
+use super::flowing::Flowing;
 use super::inertia::{Consistent, PointInertia, lump};
 use super::kernel::{Constraints, Lumped, NodeTerm, RegionKernel, Stiffness, Trial};
 use super::stiffness::{Matrices, Surroundings};
@@ -61,6 +62,8 @@ pub struct Parts<const D: usize> {
     pub replaced_displacement: bool,
     /// Transfer between points and nodes.
     pub transfer: Transfer,
+    /// Points that explicit steps move, in place of the regions of plain material.
+    pub flow: Option<Flowing<D>>,
     /// Linear solver.
     pub solver: LinearSolver<D>,
     /// Does inertia couple nodes as the shape functions do?
@@ -89,6 +92,8 @@ pub struct Model<const D: usize> {
     pub transfer: Transfer,
     /// Linear solver.
     pub solver: LinearSolver<D>,
+    /// Points that explicit steps move.
+    pub flow: Option<Flowing<D>>,
     pub(super) explicit: bool,
     pub(super) movable: usize,
     pub(super) replaced_displacement: bool,
@@ -102,7 +107,7 @@ pub struct Model<const D: usize> {
     inertia: PointInertia<D>,
     pub(super) consistent: Option<Consistent<D>>,
     pub(super) constraints: Constraints<D>,
-    work: Vec<Vector<D>>,
+    pub(super) work: Vec<Vector<D>>,
     pub(super) times: [f64; 2],
 }
 
@@ -135,13 +140,14 @@ impl<const D: usize> Model<D> {
             term.attach(disc.as_ref())
                 .map_err(|x| left_grid(&x, moment))?;
         }
-        let kept = match points.motion {
-            Some(_) => KeptNodes::touched(disc.as_ref(), &points, parts.first_kept),
-            None => KeptNodes::default(),
+        let kept = match (&points.motion, &parts.flow) {
+            (Some(_), _) | (_, Some(_)) => KeptNodes::touched(disc.as_ref(), &points, parts.first_kept),
+            (None, None) => KeptNodes::default(),
         };
         let mut model = Model {
             matrices: Matrices::new(&mut regions, disc.as_ref(), &points, !parts.explicit),
             explicit: parts.explicit,
+            flow: parts.flow,
             nodes: Nodes {
                 lumped: Lumped::zeros(n),
                 active: vec![false; n],
@@ -176,6 +182,11 @@ impl<const D: usize> Model<D> {
         Ok(model)
     }
 
+    /// Material points, those that flow included.
+    pub fn point_count(&self) -> usize {
+        self.points.len() + self.flow.as_ref().map_or(0, Flowing::len)
+    }
+
     /// Adds a region of points at rest with its kernel, or puts it in place of one that was taken out.
     pub fn add_layer(&mut self, kernel: Box<dyn RegionKernel<D>>, range: Range<usize>) {
         self.regions.push(Region {
@@ -206,11 +217,14 @@ impl<const D: usize> Model<D> {
         for region in self.regions.iter().filter(not_at_rest) {
             lump(region, disc, &self.points, own, lumped);
         }
+        if let Some(flow) = &self.flow {
+            flow.lump(lumped);
+        }
         if let Some(consistent) = &mut self.consistent {
             consistent.diagonal.copy_from(lumped);
         }
         for term in &self.terms {
-            term.lump(lumped);
+            term.lump(self.times[0], lumped);
         }
         if let Some(consistent) = &mut self.consistent {
             consistent.diagonal.become_rest_of(lumped);

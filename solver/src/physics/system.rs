@@ -1,5 +1,6 @@
 //! The model as integrators see it: residual, tangent, commit.
 
+use super::kernel::Step;
 use super::model::Model;
 use super::stiffness::weighted_square;
 use crate::error::SolverError;
@@ -9,15 +10,17 @@ use crate::tensor::Vector;
 use crate::time::{ForceScale, Motion, Rates, System};
 
 impl<const D: usize> System<D> for Model<D> {
-    fn begin_step(&mut self, times: [f64; 2], moment: Moment) {
+    fn begin_step(&mut self, times: [f64; 2], moment: Moment) -> Result<(), SolverError> {
         self.times = times;
         self.dt = times[1] - times[0];
         self.moment = moment;
+        self.collect_flow()?;
         if self.moving {
             self.lump();
         }
         self.transfer_to_nodes();
         self.constrain();
+        Ok(())
     }
 
     fn is_linear(&self) -> bool {
@@ -137,6 +140,9 @@ impl<const D: usize> System<D> for Model<D> {
         for f in out.as_flattened_mut() {
             *f = -*f;
         }
+        if let Some(flow) = &self.flow {
+            flow.add_forces(out);
+        }
         let lumped = &self.nodes.lumped;
         subtract_product(out, &lumped.stiffness, &self.nodes.u);
         subtract_product(out, &lumped.viscous, &self.nodes.v);
@@ -160,9 +166,22 @@ impl<const D: usize> System<D> for Model<D> {
         self.check_finite(&self.nodes.a, "the acceleration")
     }
 
-    fn scale(&self, v: &mut [Vector<D>]) {
-        for term in &self.terms {
-            term.scale(v);
+    fn correct(&mut self, v: &mut [Vector<D>]) {
+        let places = self.flow.as_ref().map_or(&[][..], |flow| flow.places());
+        let step = Step {
+            times: self.times,
+            mass: &self.nodes.lumped.mass,
+            places,
+        };
+        for term in &mut self.terms {
+            term.correct(&step, v);
+        }
+        for (v, held) in v.iter_mut().zip(&self.constraints.held) {
+            for i in 0..D {
+                if held[i] {
+                    v[i] = 0.0;
+                }
+            }
         }
     }
 
@@ -203,6 +222,7 @@ impl<const D: usize> System<D> for Model<D> {
             }
         }
         self.transfer_to_points();
+        self.move_flow()?;
         if self.moving {
             self.move_points()
         } else {

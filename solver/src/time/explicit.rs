@@ -40,7 +40,7 @@ impl<const D: usize> Integrator<D> for Explicit<D> {
         times: [f64; 2],
         moment: Moment,
     ) -> Result<(), SolverError> {
-        system.begin_step(times, moment);
+        system.begin_step(times, moment)?;
         system.accelerate()
     }
 
@@ -55,8 +55,9 @@ impl<const D: usize> Integrator<D> for Explicit<D> {
         for ((v, start), a) in self.v.iter_mut().zip(start.v).zip(start.a) {
             *v = std::array::from_fn(|i| start[i] + dt * a[i]);
         }
-        system.scale(&mut self.v);
-        // what scales a velocity changes the acceleration that points are given
+        system.correct(&mut self.v);
+        // what corrects a velocity changes the acceleration that points are given
+        let start = system.motion();
         for ((a, start), v) in self.a.iter_mut().zip(start.v).zip(&self.v) {
             *a = std::array::from_fn(|i| (v[i] - start[i]) / dt);
         }

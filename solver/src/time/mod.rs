@@ -46,7 +46,10 @@ pub struct ForceScale {
 /// What integrators know of the body.
 pub trait System<const D: usize> {
     /// Starts the step from `times[0]` to `times[1]` (s): transfers, masses, held unknowns.
-    fn begin_step(&mut self, times: [f64; 2], moment: Moment);
+    ///
+    /// # Errors
+    /// A point outside the grid.
+    fn begin_step(&mut self, times: [f64; 2], moment: Moment) -> Result<(), SolverError>;
 
     /// Is the residual linear in the increment?
     fn is_linear(&self) -> bool;
@@ -95,8 +98,8 @@ pub trait System<const D: usize> {
     /// An acceleration that is not finite.
     fn accelerate(&mut self) -> Result<(), SolverError>;
 
-    /// Scales the velocities that an explicit step has found, where terms do so.
-    fn scale(&self, v: &mut [Vector<D>]);
+    /// Corrects the velocities that an explicit step has found, where terms do so.
+    fn correct(&mut self, v: &mut [Vector<D>]);
 
     /// Puts driven velocities between start and end of an explicit step, and the accelerations that
     /// lead to its end, on their values.

@@ -39,7 +39,7 @@ impl<const D: usize> Integrator<D> for Newmark<D> {
         times: [f64; 2],
         moment: Moment,
     ) -> Result<usize, SolverError> {
-        system.begin_step(times, moment);
+        system.begin_step(times, moment)?;
         let dt = times[1] - times[0];
         let start = system.motion();
         self.v.copy_from_slice(start.v);

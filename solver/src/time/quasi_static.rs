@@ -27,7 +27,7 @@ impl<const D: usize> Integrator<D> for QuasiStatic<D> {
         times: [f64; 2],
         moment: Moment,
     ) -> Result<usize, SolverError> {
-        system.begin_step(times, moment);
+        system.begin_step(times, moment)?;
         let dt = times[1] - times[0];
         self.newton.increment.fill([0.0; D]);
         let rates = Rates {
