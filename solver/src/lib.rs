@@ -10,6 +10,7 @@
 //! | [`material`] | one file a constitutive model |
 //! | [`contact`] | rigid bodies that touch the soil |
 //! | [`physics`] | region kernels, terms on nodes, the model that joins them |
+//! | [`flow`] | material points in explicit steps |
 //! | [`time`], [`linear`] | integrators, Newton, sparse solvers |
 //! | [`record`], [`error`] | what comes out |
 //! | [`Bill`] | what it will cost |
@@ -20,6 +21,7 @@ pub mod boundary;
 pub mod contact;
 mod drive;
 pub mod error;
+pub mod flow;
 pub mod geometry;
 pub mod grid;
 pub mod linear;
