@@ -6,7 +6,7 @@ use crate::field::{Field, Kind, Range};
 use crate::scene::Window;
 use crate::spec::*;
 use anechoic_solver::probe::Probes;
-use anechoic_solver::problem::{Aabb, BasisKind, Drive, Problem};
+use anechoic_solver::problem::{Aabb, BasisKind, Drive, FlowSetup, Problem};
 use anechoic_solver::wavelet::{Pulse, Wavelet};
 use serde::{Deserialize, Serialize};
 

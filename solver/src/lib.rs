@@ -40,6 +40,7 @@ pub mod wavelet;
 
 pub use bill::{Bill, Item};
 use error::SolverError;
+use flow::{Dimension, Space};
 use problem::{Aabb, Problem};
 use record::Record;
 
@@ -66,7 +67,10 @@ pub struct Outcome {
 pub fn solve<const D: usize>(
     problem: &Problem<D>,
     monitor: &dyn Monitor,
-) -> Result<Outcome, SolverError> {
+) -> Result<Outcome, SolverError>
+where
+    Space: Dimension<D>,
+{
     run::run(problem, monitor)
 }
 

@@ -1,21 +1,25 @@
 //! The loop over the steps of a run.
 
 use crate::error::SolverError;
+use crate::flow::{Dimension, Space};
 use crate::linear::Moment;
 use crate::physics::model::Model;
 use crate::problem::{Problem, Scheme};
 use crate::record::{Cost, Record, SeriesTable, Status};
 use crate::sampler::Sampler;
-use crate::time::{Integrator, System};
 use crate::time::explicit::Explicit;
 use crate::time::newmark::Newmark;
 use crate::time::quasi_static::QuasiStatic;
+use crate::time::{Integrator, System};
 use crate::{Monitor, Outcome, setup};
 
 pub(crate) fn run<const D: usize>(
     problem: &Problem<D>,
     monitor: &dyn Monitor,
-) -> Result<Outcome, SolverError> {
+) -> Result<Outcome, SolverError>
+where
+    Space: Dimension<D>,
+{
     Ok(run_model(problem, setup::model(problem)?, monitor))
 }
 

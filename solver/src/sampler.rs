@@ -9,7 +9,13 @@ use crate::tensor::Vector;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// What is recorded of a rigid body.
-const BODY: [(&str, &str); 5] = [("fx", "N"), ("fy", "N"), ("wx", "m"), ("wy", "m"), ("in", "m")];
+const BODY: [(&str, &str); 5] = [
+    ("fx", "N"),
+    ("fy", "N"),
+    ("wx", "m"),
+    ("wy", "m"),
+    ("in", "m"),
+];
 
 /// A tracer with its nodes.
 struct Tracer<const D: usize> {
@@ -269,7 +275,10 @@ fn bodies<const D: usize>(model: &Model<D>, t: f64, out: &mut SeriesTable) {
     let columns = out.columns.chunks_exact_mut(BODY.len());
     for (reading, columns) in readings.zip(columns) {
         let ([fx, fy], [wx, wy]) = (reading.force, reading.way);
-        for (column, value) in columns.iter_mut().zip([fx, fy, wx, wy, reading.penetration]) {
+        for (column, value) in columns
+            .iter_mut()
+            .zip([fx, fy, wx, wy, reading.penetration])
+        {
             column.values.push(value);
         }
     }

@@ -6,6 +6,7 @@ use crate::basis::on_grid;
 use crate::boundary::{self, Assigned, Context, DisplacementTransfer, LayerPoints};
 use crate::drive::{PointForce, SideDrive};
 use crate::error::SolverError;
+use crate::flow::{Dimension, Space};
 use crate::geometry::{Geometry, Owner};
 use crate::linear::LinearSolver;
 use crate::material::MaterialBlock;
@@ -23,7 +24,10 @@ use std::ops::Range;
 ///
 /// # Errors
 /// [`SolverError::Setup`] naming the field at fault.
-pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverError> {
+pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverError>
+where
+    Space: Dimension<D>,
+{
     let geometry = Geometry::new(problem)?;
     let frozen = problem.point_mode == PointMode::Frozen;
     flowing::check(problem)?;
@@ -122,7 +126,10 @@ fn take_flowing<const D: usize>(
     geometry: &Geometry<D>,
     points: &mut Points<D>,
     ranges: &mut Vec<(Owner, Range<usize>)>,
-) -> Result<Option<Flowing<D>>, SolverError> {
+) -> Result<Option<Flowing<D>>, SolverError>
+where
+    Space: Dimension<D>,
+{
     if !flowing::flows(problem) {
         return Ok(None);
     }

@@ -125,7 +125,7 @@ impl Strip {
                 time_s: step as f64 * self.problem.dt,
             };
             let start = (step - 1) as f64 * self.problem.dt;
-            model.begin_step([start, moment.time_s], moment);
+            model.begin_step([start, moment.time_s], moment)?;
             if tone.asks(step) {
                 asked.push((tone.phase(step), motion.force(&mut model, &middle)?));
             }

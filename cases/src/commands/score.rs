@@ -155,6 +155,7 @@ fn read(path: &Path, scene: &Prepared, model: Option<&str>) -> Result<(Record, S
         status: Status::Complete,
         receivers,
         energy: SeriesTable::default(),
+        bodies: SeriesTable::default(),
         lines: Vec::new(),
         snapshots: Vec::new(),
         cost: Cost::default(),

@@ -26,7 +26,7 @@ use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
 use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::Probes;
-use anechoic_solver::problem::{BasisKind, Drive, Problem, Scheme, Side};
+use anechoic_solver::problem::{BasisKind, Drive, FlowSetup, Problem, Scheme, Side};
 use anechoic_solver::wavelet::{Pulse, Wavelet};
 use serde::{Deserialize, Serialize};
 

@@ -22,7 +22,7 @@ use crate::runner::Run;
 use crate::scene_text;
 use anechoic_reports::provenance::Provenance;
 use anechoic_reports::row::Row;
-use anechoic_solver::record::{Cost, Record, Snapshot, SpaceTime, Status};
+use anechoic_solver::record::{Cost, Record, SeriesTable, Snapshot, SpaceTime, Status};
 pub use fields::LIST as FIELDS;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};

@@ -36,8 +36,10 @@ use crate::basis::linear::Linear;
 use crate::error::SolverError;
 use crate::grid::Grid;
 use crate::linear::Moment;
+use crate::material::herschel_bulkley::HerschelBulkley;
 use crate::material::law::Law;
 use crate::material::linear_elastic::LinearElastic;
+use crate::material::von_mises::VonMises;
 use crate::problem::BasisKind;
 use crate::tensor::{Matrix, Vector};
 use body::Body;
@@ -265,19 +267,43 @@ pub fn flow<L: Law<D>, const D: usize>(
 pub enum Constitution {
     /// Linear elasticity, objective.
     LinearElastic(LinearElastic),
+    /// Elastic, perfectly plastic.
+    VonMises(VonMises),
+    /// Strength that grows with the rate of shear.
+    HerschelBulkley(HerschelBulkley),
 }
 
-impl Constitution {
-    /// The points of `start` under this law.
+/// The dimensions in which there are laws: [`Space`] has those of 2 and 3.
+pub trait Dimension<const D: usize> {
+    /// The points of `start` under a law.
     ///
     /// # Errors
     /// As for [`flow`].
-    pub fn flow<const D: usize>(self, start: Start<D>) -> Result<Box<dyn Flow<D>>, Fault<D>>
-    where
-        LinearElastic: Law<D>,
-    {
-        match self {
+    fn flow(law: Constitution, start: Start<D>) -> Result<Box<dyn Flow<D>>, Fault<D>>;
+}
+
+/// What has dimensions.
+#[derive(Clone, Copy, Debug)]
+pub struct Space;
+
+impl Dimension<2> for Space {
+    fn flow(law: Constitution, start: Start<2>) -> Result<Box<dyn Flow<2>>, Fault<2>> {
+        match law {
             Constitution::LinearElastic(law) => flow(law, start),
+            Constitution::VonMises(law) => flow(law, start),
+            Constitution::HerschelBulkley(law) => flow(law, start),
+        }
+    }
+}
+
+impl Dimension<3> for Space {
+    fn flow(law: Constitution, start: Start<3>) -> Result<Box<dyn Flow<3>>, Fault<3>> {
+        match law {
+            Constitution::LinearElastic(law) => flow(law, start),
+            Constitution::VonMises(law) => flow(law, start),
+            Constitution::HerschelBulkley(_) => {
+                unreachable!("its rate is that of plane strain: refused as the problem is set up")
+            }
         }
     }
 }

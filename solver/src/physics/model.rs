@@ -141,7 +141,9 @@ impl<const D: usize> Model<D> {
                 .map_err(|x| left_grid(&x, moment))?;
         }
         let kept = match (&points.motion, &parts.flow) {
-            (Some(_), _) | (_, Some(_)) => KeptNodes::touched(disc.as_ref(), &points, parts.first_kept),
+            (Some(_), _) | (_, Some(_)) => {
+                KeptNodes::touched(disc.as_ref(), &points, parts.first_kept)
+            }
             (None, None) => KeptNodes::default(),
         };
         let mut model = Model {

@@ -4,7 +4,7 @@
 use crate::basis::on_grid;
 use crate::contact::term::Touch;
 use crate::error::SolverError;
-use crate::flow::{Carry, Constitution, Flow, Start};
+use crate::flow::{Carry, Constitution, Dimension, Flow, Space, Start};
 use crate::geometry::Geometry;
 use crate::linear::Moment;
 use crate::material::herschel_bulkley::HerschelBulkley;
@@ -37,7 +37,16 @@ pub(super) fn check<const D: usize>(problem: &Problem<D>) -> Result<(), SolverEr
         return refuse("points.pic_share", "not between 0 and 1");
     }
     if flow.pic_share > 0.0 && problem.transfer != Transfer::Flip {
-        return refuse("points.pic_share", "a share of pic goes with points.transfer = \"flip\"");
+        return refuse(
+            "points.pic_share",
+            "a share of pic goes with points.transfer = \"flip\"",
+        );
+    }
+    if D == 3 && matches!(flow.strength, Strength::HerschelBulkley(_)) {
+        return refuse(
+            "material.strength",
+            "the rate of shear is that of plane strain",
+        );
     }
     if flows(problem) {
         return Ok(());
@@ -62,7 +71,10 @@ pub(super) fn flowing<const D: usize>(
     points: &Points<D>,
     ranges: &[Range<usize>],
     layers: &Points<D>,
-) -> Result<Flowing<D>, SolverError> {
+) -> Result<Flowing<D>, SolverError>
+where
+    Space: Dimension<D>,
+{
     let at_start = Moment {
         step: 0,
         time_s: 0.0,
@@ -70,15 +82,26 @@ pub(super) fn flowing<const D: usize>(
     let parts: Result<Vec<Box<dyn Flow<D>>>, SolverError> = ranges
         .iter()
         .map(|range| {
-            let start = start(problem, geometry, &points.place[range.clone()], points.volume[range.start]);
-            constitution(problem).flow(start).map_err(|fault| fault.at(at_start))
+            let start = start(
+                problem,
+                geometry,
+                &points.place[range.clone()],
+                points.volume[range.start],
+            );
+            Space::flow(constitution(problem), start).map_err(|fault| fault.at(at_start))
         })
         .collect();
     let mut gravity = [0.0; D];
     gravity[1] = -problem.flow.gravity;
     let nodes = geometry.grid.node_count();
     let resting = held_at_start(problem, geometry, layers, &gravity)?;
-    Ok(Flowing::new(parts?, nodes, gravity, problem.flow.update, resting))
+    Ok(Flowing::new(
+        parts?,
+        nodes,
+        gravity,
+        problem.flow.update,
+        resting,
+    ))
 }
 
 fn constitution<const D: usize>(problem: &Problem<D>) -> Constitution {
@@ -98,7 +121,10 @@ fn start<const D: usize>(
     places: &[Vector<D>],
     volume: f64,
 ) -> Start<D> {
-    let stress = problem.flow.k0.map(|_| places.iter().map(|x| geostatic(problem, x)).collect());
+    let stress = problem
+        .flow
+        .k0
+        .map(|_| places.iter().map(|x| geostatic(problem, x)).collect());
     Start {
         grid: geometry.grid.clone(),
         basis: problem.basis,
@@ -126,7 +152,12 @@ fn geostatic<const D: usize>(problem: &Problem<D>, x: &Vector<D>) -> Matrix<D> {
     let vertical = -problem.material.density * problem.flow.gravity * depth;
     let mut stress = zero::<D>();
     for i in 0..D {
-        stress[i][i] = vertical * if i == 1 { 1.0 } else { problem.flow.k0.unwrap_or(0.0) };
+        stress[i][i] = vertical
+            * if i == 1 {
+                1.0
+            } else {
+                problem.flow.k0.unwrap_or(0.0)
+            };
     }
     stress
 }
@@ -143,11 +174,12 @@ fn held_at_start<const D: usize>(
         return Ok(Vec::new());
     }
     let mut disc = on_grid(problem.basis, &geometry.grid, geometry.per_axis);
-    disc.place(&layers.place).map_err(|p| SolverError::LeftGrid {
-        step: 0,
-        time_s: 0.0,
-        place: layers.place[p].to_vec(),
-    })?;
+    disc.place(&layers.place)
+        .map_err(|p| SolverError::LeftGrid {
+            step: 0,
+            time_s: 0.0,
+            place: layers.place[p].to_vec(),
+        })?;
     let nodes = geometry.grid.node_count();
     let (mut internal, mut weight) = (vec![[0.0; D]; nodes], vec![[0.0; D]; nodes]);
     let mut stress = [zero::<D>(); BLOCK];
@@ -191,7 +223,12 @@ pub(super) fn intruders<const D: usize>(
                 reason: format!("the body starts inside the soil, which has a point at {x:?} m"),
             });
         }
-        terms.push(Box::new(Touch::new(intruder, &geometry.grid, geometry.per_axis, reach)));
+        terms.push(Box::new(Touch::new(
+            intruder,
+            &geometry.grid,
+            geometry.per_axis,
+            reach,
+        )));
     }
     Ok(terms)
 }
