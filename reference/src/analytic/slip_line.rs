@@ -129,8 +129,8 @@ mod tests {
                 Interface::Smooth => 0.0,
                 Interface::Rough => 1.0,
             };
-            for x in [0.01, 0.1, 0.172, 0.35, 0.5] {
-                let beta = (1.0 - 2.0 * x as f64).acos();
+            for x in [0.01_f64, 0.1, 0.172, 0.35, 0.5] {
+                let beta = (1.0 - 2.0 * x).acos();
                 let force: f64 = rule
                     .on(0.0, beta)
                     .map(|(phi, w)| w * (pressure(interface, phi) * phi.cos() + shear * phi.sin()))
