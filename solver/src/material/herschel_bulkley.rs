@@ -16,7 +16,7 @@
 //! return: the return is closed, and a step of any length ends on the surface or inside. A rate that
 //! drops takes stress down with it within the step.
 
-use super::flow::{Components, Hypoelastic, MidPoint, radial_return};
+use super::flow::{Hypoelastic, PlaneStep, radial_return};
 use super::law::Law;
 use crate::problem::Elastic;
 use crate::tensor::Matrix;
@@ -59,12 +59,6 @@ impl HerschelBulkley {
     }
 }
 
-/// Engineering shear strain of a plane strain increment, Eq (9) times the step.
-#[inline]
-fn shear_strain(strain: &Matrix<2>) -> f64 {
-    (strain[0][0] - strain[1][1]).hypot(2.0 * strain[0][1])
-}
-
 /// State: xx, yy, xy, zz (Pa). `dt` must be positive.
 impl Law<2> for HerschelBulkley {
     type State = [f64; 4];
@@ -72,16 +66,17 @@ impl Law<2> for HerschelBulkley {
 
     #[inline]
     fn advance(&self, l: &Matrix<2>, dt: f64, state: &mut [f64; 4]) {
-        let step = MidPoint::new(l, dt);
-        let trial = self.elastic.trial(&step, state);
+        let step = PlaneStep::new(l, dt);
+        let trial = step.trial(&self.elastic, state);
         *state = radial_return(trial, self.strength.s_u0, || {
-            self.strength.at(shear_strain(&step.strain) / dt)
+            self.strength.at(step.shear() / dt)
         });
     }
 
     #[inline]
     fn stress(&self, state: &[f64; 4]) -> Matrix<2> {
-        state.in_plane()
+        let [xx, yy, xy, _] = *state;
+        [[xx, xy], [xy, yy]]
     }
 
     fn prestressed(&self, stress: &Matrix<2>) -> [f64; 4] {

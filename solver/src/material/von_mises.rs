@@ -10,7 +10,7 @@
 //! In plane strain `s_u` is the shear stress at yield and 2 s_u the difference of principal stresses.
 //! The surface holds for the Kirchhoff stress, so that the Cauchy stress yields at s_u/J.
 
-use super::flow::{Components, Hypoelastic, MidPoint, radial_return};
+use super::flow::{Hypoelastic, PlaneStep, SolidStep, components, radial_return, tensor};
 use super::law::Law;
 use crate::problem::Elastic;
 use crate::tensor::Matrix;
@@ -30,12 +30,6 @@ impl VonMises {
             strength: s_u,
         }
     }
-
-    #[inline]
-    fn advanced<const D: usize, S: Components<D>>(&self, l: &Matrix<D>, dt: f64, stress: &S) -> S {
-        let trial = self.elastic.trial(&MidPoint::new(l, dt), stress);
-        radial_return(trial, self.strength, || self.strength)
-    }
 }
 
 /// State: xx, yy, xy, zz (Pa).
@@ -45,12 +39,14 @@ impl Law<2> for VonMises {
 
     #[inline]
     fn advance(&self, l: &Matrix<2>, dt: f64, state: &mut [f64; 4]) {
-        *state = self.advanced(l, dt, state);
+        let trial = PlaneStep::new(l, dt).trial(&self.elastic, state);
+        *state = radial_return(trial, self.strength, || self.strength);
     }
 
     #[inline]
     fn stress(&self, state: &[f64; 4]) -> Matrix<2> {
-        state.in_plane()
+        let [xx, yy, xy, _] = *state;
+        [[xx, xy], [xy, yy]]
     }
 
     fn prestressed(&self, stress: &Matrix<2>) -> [f64; 4] {
@@ -73,16 +69,17 @@ impl Law<3> for VonMises {
 
     #[inline]
     fn advance(&self, l: &Matrix<3>, dt: f64, state: &mut [f64; 6]) {
-        *state = self.advanced(l, dt, state);
+        let trial = SolidStep::new(l, dt).trial(&self.elastic, state);
+        *state = radial_return(trial, self.strength, || self.strength);
     }
 
     #[inline]
     fn stress(&self, state: &[f64; 6]) -> Matrix<3> {
-        state.in_plane()
+        tensor(state)
     }
 
     fn prestressed(&self, stress: &Matrix<3>) -> [f64; 6] {
-        self.elastic.under(stress)
+        components(stress)
     }
 
     fn energy_density(&self, state: &[f64; 6]) -> f64 {

@@ -4,7 +4,7 @@
 use super::*;
 use crate::material::MaterialBlock;
 use crate::material::linear_elastic::LinearElastic;
-use crate::tensor::zero;
+use crate::tensor::{add_scaled, contract, identity, mul, sym, zero};
 
 /// E = 500 s_u, nu = 0.49 with s_u = 2.5 kPa: the clay of the pipe.
 pub const CLAY: Elastic = Elastic {
@@ -21,12 +21,11 @@ pub fn full([xx, yy, xy, zz]: [f64; 4]) -> Matrix<3> {
     [[xx, xy, 0.0], [xy, yy, 0.0], [0.0, 0.0, zz]]
 }
 
-/// sqrt(J2) from differences of the normal stresses (Pa).
+/// sqrt(J2), J2 = s : s / 2 with the deviator s (Pa).
 pub fn root_j2(t: &Matrix<3>) -> f64 {
-    let normal =
-        (t[0][0] - t[1][1]).powi(2) + (t[1][1] - t[2][2]).powi(2) + (t[2][2] - t[0][0]).powi(2);
-    let shear = t[0][1].powi(2) + t[1][2].powi(2) + t[2][0].powi(2);
-    (normal / 6.0 + shear).sqrt()
+    let mean = (t[0][0] + t[1][1] + t[2][2]) / 3.0;
+    let deviator = add_scaled(t, -mean, &identity());
+    (0.5 * contract(&deviator, &deviator)).sqrt()
 }
 
 /// Velocity gradients (1/s) that turn from step to step and lead past yield, at angles that share no
@@ -46,6 +45,11 @@ pub fn plane(l: &Matrix<3>) -> Matrix<2> {
     [[l[0][0], l[0][1]], [l[1][0], l[1][1]]]
 }
 
+/// The in-plane part of a plane state.
+fn in_plane([xx, yy, xy, _]: &[f64; 4]) -> Matrix<2> {
+    [[*xx, *xy], [*xy, *yy]]
+}
+
 /// The implicit law's Kirchhoff stress after the increment `a` from `stress`.
 fn implicit(a: &Matrix<2>, stress: &Matrix<2>) -> Matrix<2> {
     let (mut next, mut first) = ([zero::<2>()], [zero::<2>()]);
@@ -61,9 +65,9 @@ fn a_step_without_spin_is_that_of_the_implicit_law() {
     let mut state = [1e3, -2e3, 400.0, -300.0];
     for l in path(20, 3.0) {
         let (l, dt) = (sym(&plane(&l)), 0.03);
-        let expected = implicit(&l.map(|row| row.map(|x| x * dt)), &state.in_plane());
-        state = law.trial(&MidPoint::new(&l, dt), &state);
-        let own = state.in_plane();
+        let expected = implicit(&l.map(|row| row.map(|x| x * dt)), &in_plane(&state));
+        state = PlaneStep::new(&l, dt).trial(&law, &state);
+        let own = in_plane(&state);
         for (own, other) in own.iter().flatten().zip(expected.iter().flatten()) {
             assert!(
                 (own - other).abs() < 1e-9 * CLAY.youngs_modulus,
@@ -89,7 +93,7 @@ fn the_turning_frame_is_of_second_order() {
         }
         let (mut own, mut other) = ([0.0; 4], zero::<2>());
         for _ in 0..steps {
-            own = law.trial(&MidPoint::new(&a, 1.0), &own);
+            own = PlaneStep::new(&a, 1.0).trial(&law, &own);
             other = implicit(&a, &other);
         }
         (own[2], other[0][1])
@@ -108,7 +112,7 @@ fn one_axis_departs_from_henckys_law_with_the_third_power_of_the_step() {
     let law = Hypoelastic::new(&CLAY);
     let off = |stretch: f64| {
         let l = [[0.0, 0.0], [0.0, stretch - 1.0]];
-        let [xx, yy, _, zz] = law.trial(&MidPoint::new(&l, 1.0), &[0.0; 4]);
+        let [xx, yy, _, zz] = PlaneStep::new(&l, 1.0).trial(&law, &[0.0; 4]);
         assert_eq!(xx, zz);
         (yy - law.p_modulus() * stretch.ln()).abs()
     };
@@ -122,7 +126,7 @@ fn a_rigid_rotation_turns_the_stress_and_adds_none() {
     let (s, c) = 0.8_f64.sin_cos();
     let l = [[c - 1.0, -s], [s, c - 1.0]];
     let state = [2e3, -1e3, 500.0, 700.0];
-    let [xx, yy, xy, zz] = Hypoelastic::new(&CLAY).trial(&MidPoint::new(&l, 1.0), &state);
+    let [xx, yy, xy, zz] = PlaneStep::new(&l, 1.0).trial(&Hypoelastic::new(&CLAY), &state);
     let expected_xx = c * c * 2e3 - 2.0 * s * c * 500.0 - s * s * 1e3;
     let expected_xy = s * c * (2e3 + 1e3) + (c * c - s * s) * 500.0;
     // Two half turns of 0.4 each.
@@ -133,24 +137,62 @@ fn a_rigid_rotation_turns_the_stress_and_adds_none() {
 }
 
 #[test]
-fn energy_is_that_of_pressure_and_shear() {
+fn energy_is_half_stress_times_strain() {
     let law = Hypoelastic::new(&CLAY);
-    let bulk = CLAY.youngs_modulus / (3.0 * (1.0 - 2.0 * CLAY.poissons_ratio));
-    let shear = CLAY.youngs_modulus / (2.0 * (1.0 + CLAY.poissons_ratio));
     let state = [3e3, -1e3, 800.0, 2e3];
-    let mean: f64 = (3e3 - 1e3 + 2e3) / 3.0;
-    let expected = mean * mean / (2.0 * bulk) + root_j2(&full(state)).powi(2) / (2.0 * shear);
+    let stress = full(state);
+    // Hooke's law the other way round.
+    let (e, nu) = (CLAY.youngs_modulus, CLAY.poissons_ratio);
+    let mut strain = stress.map(|row| row.map(|s| (1.0 + nu) / e * s));
+    for i in 0..3 {
+        strain[i][i] -= nu / e * (stress[0][0] + stress[1][1] + stress[2][2]);
+    }
+    let expected = 0.5 * contract(&stress, &strain);
     assert!((law.energy_density(&state) / expected - 1.0).abs() < 1e-12);
-    let solid: [f64; 6] = Components::new(&full(state), 0.0);
-    assert!((law.energy_density(&solid) / expected - 1.0).abs() < 1e-12);
+    assert!((law.energy_density(&components(&stress)) / expected - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_turn_about_any_axis_turns_the_stress_and_adds_none() {
+    // Rodrigues' matrix for 0.9 about (2, -1, 2)/3.
+    let (s, c) = 0.9_f64.sin_cos();
+    let n = [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0];
+    let cross = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
+    let mut turn = zero::<3>();
+    for i in 0..3 {
+        for j in 0..3 {
+            let unit = if i == j { c } else { 0.0 };
+            turn[i][j] = unit + s * cross[i][j] + (1.0 - c) * n[i] * n[j];
+        }
+    }
+    let mut l = turn;
+    (0..3).for_each(|i| l[i][i] -= 1.0);
+    let stress = [
+        [2e3, 300.0, -700.0],
+        [300.0, -1e3, 500.0],
+        [-700.0, 500.0, 900.0],
+    ];
+    let law = Hypoelastic::new(&CLAY);
+    let own = tensor(&SolidStep::new(&l, 1.0).trial(&law, &components(&stress)));
+    for i in 0..3 {
+        for j in 0..3 {
+            let mut expected = 0.0;
+            for k in 0..3 {
+                for m in 0..3 {
+                    expected += turn[i][k] * stress[k][m] * turn[j][m];
+                }
+            }
+            assert!((own[i][j] - expected).abs() < 1e-8, "{i}{j}");
+        }
+    }
 }
 
 #[test]
 fn a_start_under_k0_has_equal_stress_along_and_across() {
     let k0 = CLAY.poissons_ratio / (1.0 - CLAY.poissons_ratio);
     let stress = [[-k0 * 4e4, 0.0], [0.0, -4e4]];
-    let state: [f64; 4] = Hypoelastic::new(&CLAY).under(&stress);
-    assert_eq!(state.in_plane(), stress);
+    let state = Hypoelastic::new(&CLAY).under(&stress);
+    assert_eq!(in_plane(&state), stress);
     assert!((state[3] - stress[0][0]).abs() < 1e-9 * 4e4);
 }
 
