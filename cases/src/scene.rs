@@ -7,6 +7,7 @@ use crate::sweep::named::NamedSweep;
 use anechoic_reference::claim::{Claim, Evidence};
 use anechoic_reports::study::Finding;
 use anechoic_solver::problem::Problem;
+use anechoic_solver::record::Record;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fmt::Debug;
@@ -42,6 +43,11 @@ pub trait Scene: Debug + Send + Sync {
         None
     }
 
+    /// What is measured of rigid bodies: of a run, beside that of the extended domain if the study has it.
+    fn bodies(&self, _run: &Record, _extended: Option<&Record>) -> Vec<BodyNumber> {
+        Vec::new()
+    }
+
     /// Which of the paper's tests this is, as [`anechoic_reference::paper`] names it.
     fn paper_test(&self) -> Option<&'static str> {
         None
@@ -70,6 +76,21 @@ pub trait Scene: Debug + Send + Sync {
     fn serves_until_s(&self) -> Option<f64> {
         None
     }
+}
+
+/// A number of a rigid body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyNumber {
+    /// Metric id.
+    pub metric: &'static str,
+    /// The body, or where on its way.
+    pub place: String,
+    /// The number, or the reason that there is none.
+    pub value: Result<f64, String>,
+    /// Unit; ratios have `1`.
+    pub unit: &'static str,
+    /// Kind and name of what it was measured against.
+    pub against: Option<(Evidence, &'static str)>,
 }
 
 /// The time in which a receiver's echo is looked for.

@@ -4,7 +4,9 @@ use crate::field::{Field, Kind, Range};
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::{LineProbe, Receiver};
-use anechoic_solver::problem::{Aabb, Elastic, MassKind, PointMode, Scheme, SolverKind, Transfer};
+use anechoic_solver::problem::{
+    Aabb, Elastic, MassKind, PointMode, Scheme, SolverKind, StressUpdate, Transfer,
+};
 use serde::{Deserialize, Serialize};
 
 /// Background grid.
@@ -83,6 +85,29 @@ pub struct PointsSpec {
     /// Points in a cell, all directions together.
     pub per_cell: usize,
 }
+
+/// What explicit steps of moving points have besides.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FlowSpec {
+    /// When the stress moves on.
+    pub update: StressUpdate,
+    /// Share of the nodes' velocity that points take over in a step (`flip` alone).
+    pub pic_share: f64,
+}
+
+/// Fields of explicit steps of moving points.
+pub const FLOW: &[Field] = &[
+    Field::new(
+        "flow.update",
+        Kind::Word(&["usl", "musl"]),
+        "when the stress moves on: last, or last by velocities sent to the nodes once more",
+    ),
+    Field::new(
+        "flow.pic_share",
+        Kind::Number(Range::within(0.0, 1.0)),
+        "share of the nodes' velocity that points take over in a step (flip alone)",
+    ),
+];
 
 /// Linear solver.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

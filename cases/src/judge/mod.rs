@@ -106,6 +106,7 @@ fn measured(run: &Run, runs: &[&Run], references: &References) -> Measured {
         Status::Complete => {
             let extended = certified::certifier(runs);
             missing.extend(certified::measure(run, extended, &mut numbers).err());
+            bodies(run, extended, &mut numbers);
             let first = runs.first().is_some_and(|first| std::ptr::eq(*first, run));
             measure(run, references, standard_of(run, runs), first, &mut numbers)
                 .and_then(|()| foreign::recognised(run, &mut numbers))
@@ -123,6 +124,20 @@ fn measured(run: &Run, runs: &[&Run], references: &References) -> Measured {
         obstacle: obstacle.err(),
         missing,
     }
+}
+
+/// What is measured of rigid bodies.
+fn bodies(run: &Run, extended: Option<&Run>, numbers: &mut Vec<Measurement>) {
+    let scene = run.prepared.scene.as_ref();
+    let own = scene.bodies(&run.record, extended.map(|run| &run.record));
+    numbers.extend(own.into_iter().map(|number| Measurement {
+        method: run.manifest.method.clone(),
+        metric: number.metric.to_owned(),
+        place: number.place,
+        value: number.value,
+        unit: number.unit.to_owned(),
+        against: number.against.map(|(kind, name)| (kind, name.to_owned())),
+    }));
 }
 
 /// All metrics of a complete run.

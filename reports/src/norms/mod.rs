@@ -19,6 +19,7 @@
 //! nothing is skipped.
 
 pub mod arrival;
+pub mod curve;
 pub mod echo;
 pub mod energy;
 pub mod field;
@@ -34,6 +35,7 @@ pub mod unloaded;
 mod fit;
 
 pub use arrival::{Window, arrival_lag};
+pub use curve::{CurveError, first_departure, largest_departure, mean_around};
 pub use echo::{
     Onset, amplitude_ratio, echo_level_db, echo_ratio, echo_series, peak_error, rel_l2, residual,
 };

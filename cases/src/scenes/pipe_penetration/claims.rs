@@ -1,0 +1,207 @@
+//! What is true of the pipe's resistance, and what is claimed of the boundaries.
+//!
+//! The resistance is the force on the whole pipe over D s_u, twice what the half model gives, as the mean
+//! over a window of its depth: the force of a single step is that of single nodes.
+
+use super::PipePenetration;
+use crate::scene::{BodyNumber, SceneClaim};
+use anechoic_reference::analytic::slip_line::{Interface, bearing_factor, merifield_smooth};
+use anechoic_reference::claim::{Accept, Claim, Evidence};
+use anechoic_reports::norms::{first_departure, largest_departure, mean_around};
+use anechoic_solver::record::Record;
+
+/// Depths w/D at which the resistance is stated.
+const DEPTHS: [f64; 6] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5];
+/// Half of the window of w/D over which the force is averaged.
+const WINDOW: f64 = 0.01;
+/// From this w/D on fluctuations are looked for: the impact itself is over.
+const SETTLED: f64 = 0.1;
+/// A resistance that has departed by this share of the undisturbed one has met an echo.
+const DEPARTED: f64 = 0.05;
+
+/// Depth w/D and resistance F/(D s_u) of a record.
+struct Resistance {
+    depth: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl Resistance {
+    fn of(scene: &PipePenetration, record: &Record) -> Option<Self> {
+        let (way, force) = (
+            record.bodies.column("pipe_wy")?,
+            record.bodies.column("pipe_fy")?,
+        );
+        let unit = scene.pipe.diameter_m * scene.material.strength;
+        Some(Resistance {
+            depth: way.iter().map(|w| -w / scene.pipe.diameter_m).collect(),
+            force: force.iter().map(|f| 2.0 * f / unit).collect(),
+        })
+    }
+
+    fn at(&self, depth: f64) -> Result<f64, String> {
+        mean_around(&self.depth, &self.force, depth, WINDOW).map_err(|error| error.to_string())
+    }
+}
+
+/// Is the push slow enough for a plastic solution without inertia?
+fn is_slow(scene: &PipePenetration) -> bool {
+    let v = scene.pipe.velocity_m_s;
+    scene.material.elastic.rho_kg_m3 * v * v < 0.05 * scene.material.strength
+}
+
+/// Everything that is measured of the pipe.
+pub(super) fn numbers(
+    scene: &PipePenetration,
+    run: &Record,
+    extended: Option<&Record>,
+) -> Vec<BodyNumber> {
+    let Some(own) = Resistance::of(scene, run) else {
+        return Vec::new();
+    };
+    let mut numbers = Vec::new();
+    let mut put = |metric: &'static str, place: String, value, against| {
+        numbers.push(BodyNumber {
+            metric,
+            place,
+            value,
+            unit: "1",
+            against,
+        });
+    };
+    for depth in DEPTHS.into_iter().filter(|d| *d <= scene.pipe.depth) {
+        let place = || format!("w/D={depth}");
+        put("resistance", place(), own.at(depth), None);
+        if !is_slow(scene) {
+            continue;
+        }
+        let over = |truth: Result<f64, _>| {
+            let truth = truth.map_err(
+                |error: anechoic_reference::analytic::slip_line::EmbedmentError| error.to_string(),
+            )?;
+            Ok(own.at(depth)? / truth)
+        };
+        let slip_line = Some((Evidence::Analytic, "slip-line"));
+        put(
+            "resistance_ratio",
+            place(),
+            over(bearing_factor(Interface::Smooth, depth)),
+            slip_line,
+        );
+        let fit = Some((Evidence::Paper, "Merifield 2009"));
+        put(
+            "resistance_ratio_fit",
+            place(),
+            over(merifield_smooth(depth)),
+            fit,
+        );
+    }
+    let h = scene.h();
+    if let Some(inside) = run.bodies.column("pipe_in") {
+        let deepest = inside.iter().copied().fold(0.0, f64::max) / h;
+        put("penetration_cells", "pipe".to_owned(), Ok(deepest), None);
+    }
+    if !is_slow(scene)
+        && let Some(other) = extended.and_then(|r| Resistance::of(scene, r))
+    {
+        let against = Some((Evidence::Certified, "extended-run"));
+        let depths: Vec<f64> = own.depth.clone();
+        let pair = (own.force.as_slice(), other.force.as_slice());
+        let largest = largest_departure(&depths, pair, SETTLED, WINDOW);
+        put(
+            "fluctuation",
+            "pipe".to_owned(),
+            largest.map_err(|e| e.to_string()),
+            against,
+        );
+        let first = first_departure(&depths, pair, WINDOW, DEPARTED);
+        if let Ok(Some(depth)) = first {
+            put(
+                "echo_depth",
+                "pipe".to_owned(),
+                Ok(depth),
+                Some((Evidence::Analytic, "two ways at c_p")),
+            );
+        }
+    }
+    numbers
+}
+
+/// Depth w/D at which the echo of the base meets the pipe's lowest point: the wave of the first touch
+/// runs down H and comes back to a pipe that has gone on,
+///
+/// ```text
+/// c t = 2 H - v t,     w/D = v t/D = 2 H v / (D (c + v))
+/// ```
+pub(super) fn echo_depth(scene: &PipePenetration) -> f64 {
+    let (c, v) = (
+        scene.material.elastic.elastic().p_speed(),
+        scene.pipe.velocity_m_s,
+    );
+    2.0 * scene.body.height_m * v / (scene.pipe.diameter_m * (c + v))
+}
+
+/// The claims, for the scene as run.
+pub(super) fn claims(scene: &PipePenetration) -> Vec<SceneClaim> {
+    let mut claims = Vec::new();
+    let mut claim = |method: &str, metric: &str, place: &str, accept, evidence, why: &str| {
+        claims.push(SceneClaim {
+            not_here: None,
+            claim: Claim {
+                method: method.to_owned(),
+                metric: metric.to_owned(),
+                place: place.to_owned(),
+                accept,
+                evidence,
+                why: why.to_owned(),
+            },
+        });
+    };
+    if is_slow(scene) {
+        for depth in DEPTHS
+            .into_iter()
+            .filter(|d| *d >= SETTLED && *d <= scene.pipe.depth)
+        {
+            let place = format!("w/D={depth}");
+            claim(
+                "fixed",
+                "resistance_ratio",
+                &place,
+                Accept::at_least(0.95),
+                Evidence::Analytic,
+                "the slip line has no heave and no depth, which add",
+            );
+            claim(
+                "fixed",
+                "resistance_ratio_fit",
+                &place,
+                Accept::at_most(1.1),
+                Evidence::Paper,
+                "a fit to runs with heave, which lies above the slip line",
+            );
+        }
+        return claims;
+    }
+    let certified = Evidence::Certified;
+    for (method, most) in [("dashpot", 0.05), ("damping-layer", 0.05), ("pml", 0.02)] {
+        claim(
+            method,
+            "fluctuation",
+            "pipe",
+            Accept::at_most(most),
+            certified,
+            "S21 section 3.3: local fluctuations within 5 % from w/D = 0.1 on; a true layer leaves less",
+        );
+    }
+    let depth = echo_depth(scene);
+    if depth < scene.pipe.depth {
+        claim(
+            "fixed",
+            "echo_depth",
+            "pipe",
+            Accept::within(depth - 0.01, depth + 0.01),
+            Evidence::Analytic,
+            "the wave runs to the base and back at c_p while the pipe goes on",
+        );
+    }
+    claims
+}
