@@ -43,8 +43,8 @@ pub trait Scene: Debug + Send + Sync {
         None
     }
 
-    /// What is measured of rigid bodies: of a run, beside that of the extended domain if the study has it.
-    fn bodies(&self, _run: &Record, _extended: Option<&Record>) -> Vec<BodyNumber> {
+    /// What is measured of a run by the scene's own norms, beside others of the same study.
+    fn measures(&self, _run: &Record, _beside: &Beside<'_>) -> Vec<OwnNumber> {
         Vec::new()
     }
 
@@ -78,12 +78,21 @@ pub trait Scene: Debug + Send + Sync {
     }
 }
 
-/// A number of a rigid body.
+/// Runs of the same study that a run is set beside.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Beside<'a> {
+    /// The run of the scene's standard method, which absorbs nothing.
+    pub standard: Option<&'a Record>,
+    /// The run of the extended domain, while it serves to the end of the run.
+    pub extended: Option<&'a Record>,
+}
+
+/// A number by a scene's own norm.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BodyNumber {
+pub struct OwnNumber {
     /// Metric id.
     pub metric: &'static str,
-    /// The body, or where on its way.
+    /// Receiver, body, or where on its way.
     pub place: String,
     /// The number, or the reason that there is none.
     pub value: Result<f64, String>,

@@ -252,6 +252,13 @@ impl<const D: usize> Default for FlowSetup<D> {
     }
 }
 
+impl<const D: usize> FlowSetup<D> {
+    /// Can energy come from nothing but the drives?
+    pub fn is_passive(&self) -> bool {
+        self.intruders.is_empty() && self.gravity == 0.0 && self.velocity == [0.0; D]
+    }
+}
+
 /// Everything that a solve needs.
 #[derive(Clone, Debug)]
 pub struct Problem<const D: usize> {

@@ -37,6 +37,7 @@ pub(super) fn measure(
     }
     // A scene with a stored reference has no need of a run.
     let asked = run.prepared.scene.extended().is_none()
+        && run.prepared.scene.pulse_amplitude().is_some()
         && run.prepared.scene.claims().iter().any(|claim| {
             run.manifest.judged_as() == Some(&claim.claim.method)
                 && claim.claim.evidence == Evidence::Certified

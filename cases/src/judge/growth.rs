@@ -9,6 +9,9 @@ use anechoic_solver::problem::{Drive, Problem};
 
 /// What a run's energy does after the load; `None` where that cannot be said.
 pub(super) fn unloaded(run: &Run, problem: &Problem<2>) -> Option<Unloaded> {
+    if !problem.flow.is_passive() {
+        return None;
+    }
     let energy = &run.record.energy;
     let ends = problem.drives.iter().map(|drive| match drive {
         Drive::SideVelocity { pulse, .. } | Drive::PointForce { pulse, .. } => pulse.end(),

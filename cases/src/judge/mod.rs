@@ -26,7 +26,7 @@ pub use trades::judge_trades;
 
 use crate::certified::Certified;
 use crate::runner::Run;
-use crate::scene::{Quantity, Role, Window};
+use crate::scene::{Beside, Quantity, Role, Window};
 use anechoic_reports::judge::{Measurement, cost_measurements, measurements};
 use anechoic_reports::norms::{
     Score, Trace, Traces, echo_ratio, energy_left, growth_rate_per_s, target_energy, with_groups,
@@ -106,7 +106,7 @@ fn measured(run: &Run, runs: &[&Run], references: &References) -> Measured {
         Status::Complete => {
             let extended = certified::certifier(runs);
             missing.extend(certified::measure(run, extended, &mut numbers).err());
-            bodies(run, extended, &mut numbers);
+            own_norms(run, runs, extended, &mut numbers);
             let first = runs.first().is_some_and(|first| std::ptr::eq(*first, run));
             measure(run, references, standard_of(run, runs), first, &mut numbers)
                 .and_then(|()| foreign::recognised(run, &mut numbers))
@@ -126,10 +126,19 @@ fn measured(run: &Run, runs: &[&Run], references: &References) -> Measured {
     }
 }
 
-/// What is measured of rigid bodies.
-fn bodies(run: &Run, extended: Option<&Run>, numbers: &mut Vec<Measurement>) {
+/// What is measured by the scene's own norms.
+fn own_norms(run: &Run, runs: &[&Run], extended: Option<&Run>, numbers: &mut Vec<Measurement>) {
     let scene = run.prepared.scene.as_ref();
-    let own = scene.bodies(&run.record, extended.map(|run| &run.record));
+    let end = run.record.receivers.times.last().copied().unwrap_or(0.0);
+    let serves = |other: &&Run| {
+        let until = other.prepared.scene.serves_until_s();
+        until.is_some_and(|until| end <= until)
+    };
+    let beside = Beside {
+        standard: standard_of(run, runs).map(|run| &run.record),
+        extended: extended.filter(serves).map(|run| &run.record),
+    };
+    let own = scene.measures(&run.record, &beside);
     numbers.extend(own.into_iter().map(|number| Measurement {
         method: run.manifest.method.clone(),
         metric: number.metric.to_owned(),

@@ -21,8 +21,9 @@ mod values;
 
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
-use crate::scene::{self, BodyNumber, Reference, Scene, SceneClaim, SceneInfo, Window};
+use crate::scene::{self, Beside, OwnNumber, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
+use anechoic_solver::boundary::{SideMethod, extended};
 use anechoic_solver::contact::Contact;
 use anechoic_solver::contact::body::{Motion, RigidBody};
 use anechoic_solver::contact::shape::Shape;
@@ -308,8 +309,20 @@ impl Scene for PipePenetration {
         Ok(Vec::new())
     }
 
-    fn bodies(&self, run: &Record, extended: Option<&Record>) -> Vec<BodyNumber> {
-        claims::numbers(self, run, extended)
+    fn measures(&self, run: &Record, beside: &Beside<'_>) -> Vec<OwnNumber> {
+        claims::numbers(self, run, beside.extended)
+    }
+
+    /// Until a wave from the pipe can be back from the outer ends.
+    fn serves_until_s(&self) -> Option<f64> {
+        let (problem, sides) = (self.problem(), &self.boundary);
+        let added = |side: &SideMethod| {
+            (side.method == extended::METHOD.name).then(|| extended::thickness(&problem, side))
+        };
+        let right = self.body.width_m + added(&sides.right)?;
+        let down = self.body.height_m + added(&sides.bottom)?;
+        let reach = 0.5 * self.pipe.diameter_m + self.pipe.depth * self.pipe.diameter_m;
+        Some((2.0 * right.min(down) - reach) / self.material.elastic.elastic().p_speed())
     }
 
     fn claims(&self) -> Vec<SceneClaim> {
