@@ -15,6 +15,7 @@ macro_rules! scenes {
 scenes! {
     compression_1d,
     lamb,
+    mudmat,
     pipe_penetration,
     point_source,
 }

@@ -1,0 +1,216 @@
+//! What is true of the blow, and what is claimed of the boundaries.
+//!
+//! The pressure on the mudmat is the force on it over its exposed height. Arrivals are when a receiver's
+//! velocity first departs from the slide's by a share of what it departs at most before the echoes.
+
+use super::Mudmat;
+use crate::scene::{Beside, OwnNumber, SceneClaim};
+use anechoic_reference::analytic::elastic::Elastic;
+use anechoic_reference::analytic::impact::{Impact, Slide};
+use anechoic_reference::claim::{Accept, Claim, Evidence};
+use anechoic_reports::norms::mean_around;
+use anechoic_solver::record::Record;
+
+/// Share of the largest departure at which a wave counts as there.
+const THERE: f64 = 0.1;
+/// Half of the window (s) in which the pressure's fluctuation about its mean is looked for, around the
+/// echo of the top.
+const AROUND: f64 = 0.05;
+/// Half of the window (s) of the mean pressure.
+const MEAN: f64 = 0.01;
+
+/// Closed forms of the slide.
+fn slide(scene: &Mudmat) -> Result<(Impact, Slide), String> {
+    let m = &scene.material.elastic;
+    let soil = Elastic::new(m.youngs_modulus, m.nu, m.rho_kg_m3).map_err(|e| e.to_string())?;
+    let impact = Impact::new(&soil, scene.slide.velocity_m_s).map_err(|e| e.to_string())?;
+    let (length, height) = (scene.body.width_m, scene.body.height_m);
+    let slide = Slide::new(impact, length, height, scene.mudmat.exposed_m);
+    Ok((impact, slide.map_err(|e| e.to_string())?))
+}
+
+/// How far a receiver's velocity departs from the slide's (m/s).
+fn departure(scene: &Mudmat, record: &Record, name: &str) -> Option<Vec<f64>> {
+    let column = |axis: &str| record.receivers.column(&format!("{name}_v{axis}"));
+    let (vx, vy) = (column("x")?, column("y")?);
+    let v0 = scene.slide.velocity_m_s;
+    Some(vx.iter().zip(vy).map(|(x, y)| (x - v0).hypot(*y)).collect())
+}
+
+/// When it first departs by a share of what it does at most until `until` (s).
+fn arrival(times: &[f64], values: &[f64], until: f64) -> Result<f64, String> {
+    let seen = times.partition_point(|t| *t <= until);
+    let largest = values[..seen].iter().copied().fold(0.0, f64::max);
+    let first = values.iter().position(|v| *v > THERE * largest);
+    first
+        .map(|k| times[k])
+        .ok_or_else(|| "nothing arrives".to_owned())
+}
+
+/// Pressure on the mudmat (Pa) with its times.
+fn pressure(scene: &Mudmat, record: &Record) -> Option<(Vec<f64>, Vec<f64>)> {
+    let force = record.bodies.column("mudmat_fx")?;
+    let pressure = force.iter().map(|f| f / scene.mudmat.exposed_m).collect();
+    Some((record.bodies.times.clone(), pressure))
+}
+
+/// Largest departure of the pressure's mean from a straight line around `at` (s): what an echo does.
+fn fluctuation((times, p): &(Vec<f64>, Vec<f64>), at: f64) -> Result<f64, String> {
+    let mean = |t: f64| mean_around(times, p, t, MEAN).map_err(|e| e.to_string());
+    let (from, to) = (at - AROUND, at + 2.0 * AROUND);
+    let (start, end) = (mean(from)?, mean(to)?);
+    let steps = 30;
+    let mut largest = 0.0_f64;
+    for k in 0..=steps {
+        let share = f64::from(k) / f64::from(steps);
+        let line = start + share * (end - start);
+        largest = largest.max((mean(from + share * (to - from))? - line).abs());
+    }
+    Ok(largest)
+}
+
+/// Everything that is measured of the slide.
+pub(super) fn numbers(scene: &Mudmat, run: &Record, beside: &Beside<'_>) -> Vec<OwnNumber> {
+    let Ok((_, slide)) = slide(scene) else {
+        return Vec::new();
+    };
+    let mut numbers = Vec::new();
+    let mut put = |metric: &'static str, place: &str, value, unit: &'static str, against| {
+        numbers.push(OwnNumber {
+            metric,
+            place: place.to_owned(),
+            value,
+            unit,
+            against,
+        });
+    };
+    let analytic = Some((Evidence::Analytic, "wave paths at c_p"));
+    let echo = slide.top_echo_at_step();
+    for receiver in &scene.receivers {
+        let Some(own) = departure(scene, run, &receiver.name) else {
+            continue;
+        };
+        let (upstream, height) = (-receiver.x_m, receiver.y_m);
+        let back = slide.top_echo(upstream, height);
+        let found = arrival(&run.receivers.times, &own, back);
+        let late = found.map(|t| t - slide.direct(upstream, height));
+        put("arrival_s", &receiver.name, late, "s", analytic);
+        let standard = beside
+            .standard
+            .and_then(|s| departure(scene, s, &receiver.name));
+        if let Some(other) = standard {
+            let value = residual(&run.receivers.times, &own, &other, back);
+            put(
+                "residual",
+                &receiver.name,
+                value,
+                "1",
+                Some((Evidence::Paper, "S21 Fig. 8")),
+            );
+        }
+    }
+    let Some(own) = pressure(scene, run) else {
+        return numbers;
+    };
+    let rho_v2 = scene.material.elastic.rho_kg_m3 * scene.slide.velocity_m_s.powi(2);
+    let first = own.1.iter().copied().fold(f64::NEG_INFINITY, f64::max) / rho_v2;
+    put("peak_pressure", "mudmat", Ok(first), "rho v^2", None);
+    for t in [0.2, 0.4, 0.5, 0.7, 0.9] {
+        if t + MEAN <= scene.time.end_s {
+            let value = mean_around(&own.0, &own.1, t, MEAN).map(|p| p / rho_v2);
+            let value = value.map_err(|e| e.to_string());
+            put("pressure", &format!("t={t}"), value, "rho v^2", None);
+        }
+    }
+    if echo + 2.0 * AROUND + MEAN <= scene.time.end_s {
+        let own_swing = fluctuation(&own, echo);
+        put(
+            "fluctuation",
+            "mudmat",
+            own_swing.clone().map(|f| f / rho_v2),
+            "rho v^2",
+            None,
+        );
+        let other = beside.standard.and_then(|s| pressure(scene, s));
+        if let Some(other) = other {
+            let ratio = fluctuation(&other, echo).and_then(|other| Ok(own_swing? / other));
+            put(
+                "fluctuation_ratio",
+                "mudmat",
+                ratio,
+                "1",
+                Some((Evidence::Paper, "S21 Fig. 6")),
+            );
+        }
+    }
+    if let Some(inside) = run.bodies.column("mudmat_in") {
+        let deepest = inside.iter().copied().fold(0.0, f64::max) / scene.h();
+        put("penetration_cells", "mudmat", Ok(deepest), "1", None);
+    }
+    numbers
+}
+
+/// Largest change of the velocity once the echo of the top is due, over that of the standard run.
+fn residual(times: &[f64], own: &[f64], other: &[f64], from: f64) -> Result<f64, String> {
+    let first = times.partition_point(|t| *t < from);
+    let window = times.partition_point(|t| *t < from + 2.0 * AROUND);
+    let swing = |values: &[f64]| {
+        let part = values.get(first..window).unwrap_or(&[]);
+        let high = part.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let low = part.iter().copied().fold(f64::INFINITY, f64::min);
+        high - low
+    };
+    let (own, other) = (swing(own), swing(other));
+    if own.is_finite() && other.is_finite() && other > 0.0 {
+        Ok(own / other)
+    } else {
+        Err(format!(
+            "the run ends before the echo of the top, {from:.3} s"
+        ))
+    }
+}
+
+/// The claims, for the scene as run.
+pub(super) fn claims(scene: &Mudmat) -> Vec<SceneClaim> {
+    let mut claims = Vec::new();
+    let mut claim = |method: &str, metric: &str, place: &str, accept, evidence, why: &str| {
+        claims.push(SceneClaim {
+            not_here: None,
+            claim: Claim {
+                method: method.to_owned(),
+                metric: metric.to_owned(),
+                place: place.to_owned(),
+                accept,
+                evidence,
+                why: why.to_owned(),
+            },
+        });
+    };
+    for receiver in &scene.receivers {
+        claim(
+            "none",
+            "arrival_s",
+            &receiver.name,
+            Accept::within(-0.03, 0.03),
+            Evidence::Analytic,
+            "the blow runs from the mudmat's face at c_p",
+        );
+    }
+    claim(
+        "dashpot",
+        "residual",
+        "B",
+        Accept::at_most(0.1),
+        Evidence::Paper,
+        "S21 section 3.2.2: below 10 % of what comes back from a free top",
+    );
+    claim(
+        "hybrid",
+        "fluctuation_ratio",
+        "mudmat",
+        Accept::at_most(0.2),
+        Evidence::Paper,
+        "S21 Fig. 6: the echo at 0.44 s all but gone",
+    );
+    claims
+}
