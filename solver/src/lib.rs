@@ -9,6 +9,7 @@
 //! | [`grid`], [`points`], [`basis`] | background grid, material points, shape functions |
 //! | [`material`] | one file a constitutive model |
 //! | [`physics`] | region kernels, terms on nodes, the model that joins them |
+//! | [`flow`] | material points in explicit steps |
 //! | [`time`], [`linear`] | integrators, Newton, sparse solvers |
 //! | [`record`], [`error`] | what comes out |
 //! | [`Bill`] | what it will cost |
@@ -18,6 +19,7 @@ mod bill;
 pub mod boundary;
 mod drive;
 pub mod error;
+pub mod flow;
 pub mod geometry;
 pub mod grid;
 pub mod linear;

@@ -23,7 +23,7 @@ pub const WIDEST: usize = 3;
 #[derive(Clone, Copy, Debug)]
 pub struct Along {
     /// The first node; may lie one beyond the ends of the grid.
-    pub first: isize,
+    pub first: i32,
     /// Values of the functions of this node and the next ones.
     pub values: [f64; WIDEST],
     /// Their derivatives (1 a cell).
@@ -48,13 +48,13 @@ pub trait Basis: Send + 'static {
 
 /// Gives what belongs to nodes beyond the ends of an axis of `cells` cells to those within.
 #[inline]
-pub(super) fn fold(mut along: Along, width: usize, cells: usize) -> Along {
+pub(crate) fn fold(mut along: Along, width: usize, cells: usize) -> Along {
     if along.first < 0 {
         for n in [&mut along.values, &mut along.slopes] {
             *n = [n[1] + 2.0 * n[0], n[2] - n[0], 0.0];
         }
         along.first = 0;
-    } else if along.first + width as isize - 1 > cells as isize {
+    } else if along.first + width as i32 - 1 > cells as i32 {
         for n in [&mut along.values, &mut along.slopes] {
             *n = [0.0, n[0] - n[2], n[1] + 2.0 * n[2]];
         }

@@ -19,13 +19,13 @@ impl Basis for QuadraticBSpline {
     const NAME: &'static str = "bspline";
     const WIDTH: usize = 3;
 
-    #[inline]
+    #[inline(always)]
     fn point(&self, s: f64, cells: usize) -> Along {
         let nearest = (s + 0.5).floor().min(cells as f64);
         let xi = s - nearest;
         let (down, up) = (0.5 - xi, 0.5 + xi);
         Along {
-            first: nearest as isize - 1,
+            first: nearest as i32 - 1,
             values: [0.5 * down * down, 0.75 - xi * xi, 0.5 * up * up],
             slopes: [-down, -2.0 * xi, up],
         }

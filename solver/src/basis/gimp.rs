@@ -58,7 +58,7 @@ impl Basis for Gimp {
             (*value, *slope) = self.function(s - (nearest + k as f64 - 1.0));
         }
         Along {
-            first: nearest as isize - 1,
+            first: nearest as i32 - 1,
             values,
             slopes,
         }

@@ -11,12 +11,12 @@ impl Basis for Linear {
     const WIDTH: usize = 2;
 
     /// A place on the upper end of the grid belongs to the last cell.
-    #[inline]
+    #[inline(always)]
     fn point(&self, s: f64, cells: usize) -> Along {
         let cell = (s as usize).min(cells - 1);
         let up = s - cell as f64;
         Along {
-            first: cell as isize,
+            first: cell as i32,
             values: [1.0 - up, up, 0.0],
             slopes: [-1.0, 1.0, 0.0],
         }

@@ -1,0 +1,419 @@
+//! The points of one region: a basis, a law, columns, and the passes over strips and blocks.
+
+use super::columns::{Columns, Part, Sorting};
+use super::gather::Gather;
+use super::scatter::Scatter;
+use super::stencils::Stencils;
+use super::strips::{Strips, Sums, each};
+use super::{Carry, Fault, Flow, NodeSums, Start};
+use crate::basis::along::Basis;
+use crate::grid::Grid;
+use crate::material::law::Law;
+use crate::points::{BLOCK, blocks};
+use crate::tensor::{Matrix, Vector, add_scaled, identity, inverse, zero};
+use pulp::{Arch, NullaryFnOnce};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Steps after which points are sorted again at the latest: sorting costs about as much as a step.
+const SORT_EVERY: usize = 32;
+
+/// Points of a region.
+#[derive(Debug)]
+pub(super) struct Body<B, L: Law<D>, const D: usize> {
+    fixed: Fixed<B, L, D>,
+    columns: Columns<L::State, D>,
+    sorting: Sorting<L::State, D>,
+    strips: Strips,
+    /// Steps since the points were sorted.
+    age: usize,
+    /// Has a point left its strip?
+    strayed: AtomicBool,
+}
+
+/// What does not change during a run.
+#[derive(Clone, Debug)]
+struct Fixed<B, L, const D: usize> {
+    arch: Arch,
+    grid: Grid<D>,
+    basis: B,
+    law: L,
+    carry: Carry,
+    shared: bool,
+    mass: f64,
+    volume: f64,
+    /// From a node to the next along each axis.
+    stride: [usize; D],
+}
+
+/// The motion of the nodes and the step.
+#[derive(Clone, Copy)]
+struct Nodes<'a, const D: usize> {
+    v: &'a [Vector<D>],
+    a: &'a [Vector<D>],
+    dt: f64,
+}
+
+impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
+    /// The points of `start`.
+    pub fn new(basis: B, law: L, start: Start<D>) -> Result<Self, Fault<D>> {
+        let n = start.places.len();
+        let grid = start.grid;
+        let mut stride = [1; D];
+        for a in 1..D {
+            stride[a] = stride[a - 1] * grid.nodes_along(a - 1);
+        }
+        let state = match &start.stress {
+            Some(stress) => stress.iter().map(|s| law.prestressed(s)).collect(),
+            None => vec![L::State::default(); n],
+        };
+        let affine = start.carry == Carry::Affine;
+        let mut body = Body {
+            strips: Strips::new(&grid, B::WIDTH),
+            fixed: Fixed {
+                arch: Arch::new(),
+                grid,
+                basis,
+                law,
+                carry: start.carry,
+                shared: start.shared,
+                mass: start.density * start.volume,
+                volume: start.volume,
+                stride,
+            },
+            columns: Columns {
+                place: start.places,
+                velocity: start.velocities,
+                gradient: vec![zero(); if affine { n } else { 0 }],
+                state,
+            },
+            sorting: Sorting::default(),
+            age: 0,
+            strayed: AtomicBool::new(false),
+        };
+        body.sort()?;
+        Ok(body)
+    }
+
+    /// Orders the points by the first node that they see.
+    fn sort(&mut self) -> Result<(), Fault<D>> {
+        let n = self.columns.place.len();
+        self.sorting.key.resize(n, 0);
+        let mut stencils = Stencils::new();
+        for block in blocks(0..n) {
+            let places = &self.columns.place[block.clone()];
+            self.fixed.fill(&mut stencils, places)?;
+            let keys = &mut self.sorting.key[block];
+            keys.copy_from_slice(&stencils.base[..keys.len()]);
+        }
+        let nodes = self.fixed.grid.node_count();
+        self.columns.sort(nodes, &mut self.sorting);
+        self.strips.find(&self.sorting.start);
+        self.age = 0;
+        *self.strayed.get_mut() = false;
+        Ok(())
+    }
+
+    /// A pass to the nodes: the strips of one colour, then those of the other.
+    fn scatter<const FORCE: bool>(&self, mut out: Sums<'_, D>) -> Result<(), Fault<D>> {
+        let strips = &self.strips;
+        for colour in 0..2 {
+            each(
+                0..strips.of_colour(colour),
+                out.again(),
+                self.fixed.shared,
+                &|out, k| out.split_at(strips.first_node(colour, k)),
+                &|k, mut out| self.scatter_strip::<FORCE>(2 * k + colour, &mut out),
+            )?;
+        }
+        Ok(())
+    }
+
+    fn scatter_strip<const FORCE: bool>(
+        &self,
+        strip: usize,
+        out: &mut Sums<'_, D>,
+    ) -> Result<(), Fault<D>> {
+        let (fixed, columns) = (&self.fixed, &self.columns);
+        let mut stencils = Stencils::new();
+        let mut stress = [zero(); BLOCK];
+        for block in blocks(self.strips.points[strip]..self.strips.points[strip + 1]) {
+            fixed.fill(&mut stencils, &columns.place[block.clone()])?;
+            if FORCE {
+                fixed.arch.dispatch(Stresses {
+                    law: &fixed.law,
+                    state: &columns.state[block.clone()],
+                    stress: &mut stress,
+                });
+            }
+            let velocity = &columns.velocity[block.clone()];
+            macro_rules! pass {
+                ($width:literal, $affine:literal, $gradient:expr) => {
+                    fixed.arch.dispatch(Scatter::<D, $width, $affine, FORCE> {
+                        stencils: &stencils,
+                        h: &fixed.grid.h,
+                        stride: fixed.stride,
+                        mass: fixed.mass,
+                        volume: fixed.volume,
+                        velocity,
+                        gradient: $gradient,
+                        stress: &stress,
+                        out,
+                    })
+                };
+            }
+            match (B::WIDTH, fixed.carry) {
+                (2, Carry::Affine) => pass!(2, true, &columns.gradient[block]),
+                (2, Carry::Flip { .. }) => pass!(2, false, &[]),
+                (_, Carry::Affine) => pass!(3, true, &columns.gradient[block]),
+                (_, Carry::Flip { .. }) => pass!(3, false, &[]),
+            }
+        }
+        Ok(())
+    }
+
+    /// A pass to the points.
+    fn gather<const KICK: bool, const MOVE: bool>(
+        &mut self,
+        nodes: Nodes<'_, D>,
+    ) -> Result<(), Fault<D>> {
+        let (fixed, strips, strayed) = (&self.fixed, &self.strips, &self.strayed);
+        let work = |strip: usize, mut part: Part<'_, L::State, D>| {
+            let leash = strips.leash(strip, B::WIDTH);
+            let mut stencils = Stencils::new();
+            let mut inside = true;
+            while !part.place.is_empty() {
+                let n = part.place.len().min(BLOCK);
+                let (mut block, rest) = part.split_at(n);
+                fixed.fill(&mut stencils, block.place)?;
+                fixed.gather_block::<KICK, MOVE>(&stencils, nodes, &mut block)?;
+                if MOVE {
+                    let (axis, grid) = (D - 1, &fixed.grid);
+                    for x in block.place.iter() {
+                        inside &= leash.contains(&((x[axis] - grid.origin[axis]) / grid.h[axis]));
+                    }
+                }
+                part = rest;
+            }
+            if !inside {
+                strayed.store(true, Ordering::Relaxed);
+            }
+            Ok(())
+        };
+        each(
+            0..strips.len(),
+            (0, self.columns.all()),
+            fixed.shared,
+            // a part starts where its first strip does
+            &|(first, part), strip| {
+                let start = strips.points[strip];
+                let (lower, upper) = part.split_at(start - first);
+                ((first, lower), (start, upper))
+            },
+            &|strip, (_, part)| work(strip, part),
+        )?;
+        if MOVE {
+            self.age += 1;
+        }
+        Ok(())
+    }
+}
+
+impl<B: Basis, L, const D: usize> Fixed<B, L, D> {
+    fn fill(&self, stencils: &mut Stencils<D>, places: &[Vector<D>]) -> Result<(), Fault<D>> {
+        stencils
+            .fill(self.arch, &self.basis, &self.grid, places)
+            .map_err(|p| Fault::Left { place: places[p] })
+    }
+}
+
+impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
+    fn gather_block<const KICK: bool, const MOVE: bool>(
+        &self,
+        stencils: &Stencils<D>,
+        nodes: Nodes<'_, D>,
+        block: &mut Part<'_, L::State, D>,
+    ) -> Result<(), Fault<D>> {
+        let mut l = [zero(); BLOCK];
+        let pic = match self.carry {
+            Carry::Affine => 0.0,
+            Carry::Flip { pic } => pic,
+        };
+        macro_rules! pass {
+            ($width:literal, $affine:literal) => {
+                self.arch
+                    .dispatch(Gather::<D, $width, $affine, KICK, MOVE> {
+                        stencils,
+                        stride: self.stride,
+                        v: nodes.v,
+                        a: nodes.a,
+                        dt: nodes.dt,
+                        pic,
+                        place: block.place,
+                        velocity: block.velocity,
+                        gradient: block.gradient,
+                        l: &mut l,
+                    })
+            };
+        }
+        let finite = match (B::WIDTH, self.carry) {
+            (2, Carry::Affine) => pass!(2, true),
+            (2, Carry::Flip { .. }) => pass!(2, false),
+            (_, Carry::Affine) => pass!(3, true),
+            (_, Carry::Flip { .. }) => pass!(3, false),
+        };
+        if !finite {
+            return Err(unsound(block.place, |p| {
+                block.velocity[p].iter().all(|v| v.is_finite())
+            }));
+        }
+        if !MOVE {
+            return Ok(());
+        }
+        let l = &l[..block.place.len()];
+        let sound = self.arch.dispatch(Advance {
+            law: &self.law,
+            l,
+            dt: nodes.dt,
+            state: block.state,
+        });
+        if sound {
+            return Ok(());
+        }
+        for (l, &place) in l.iter().zip(block.place.iter()) {
+            let (determinant, _) = inverse(&add_scaled(&identity(), nodes.dt, l));
+            if determinant <= 0.0 {
+                return Err(Fault::Inverted { place, determinant });
+            }
+        }
+        Err(unsound(block.place, |p| {
+            block.state[p].as_ref().iter().all(|x| x.is_finite())
+        }))
+    }
+}
+
+impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
+    fn to_nodes(&mut self, out: &mut NodeSums<D>) -> Result<(), Fault<D>> {
+        if *self.strayed.get_mut() || self.age >= SORT_EVERY {
+            self.sort()?;
+        }
+        self.scatter::<true>(Sums::all(out))
+    }
+
+    fn to_points(&mut self, v: &[Vector<D>], a: &[Vector<D>], dt: f64) -> Result<(), Fault<D>> {
+        self.gather::<true, true>(Nodes { v, a, dt })
+    }
+
+    fn kick(&mut self, v: &[Vector<D>], a: &[Vector<D>], dt: f64) -> Result<(), Fault<D>> {
+        self.gather::<true, false>(Nodes { v, a, dt })
+    }
+
+    fn momentum(&mut self, out: &mut [Vector<D>]) -> Result<(), Fault<D>> {
+        self.scatter::<false>(Sums {
+            first: 0,
+            momentum: out,
+            others: None,
+        })
+    }
+
+    fn drift(&mut self, v: &[Vector<D>], dt: f64) -> Result<(), Fault<D>> {
+        self.gather::<false, true>(Nodes { v, a: v, dt })
+    }
+
+    fn len(&self) -> usize {
+        self.columns.place.len()
+    }
+
+    fn point_mass(&self) -> f64 {
+        self.fixed.mass
+    }
+
+    fn point_volume(&self) -> f64 {
+        self.fixed.volume
+    }
+
+    fn places(&self) -> &[Vector<D>] {
+        &self.columns.place
+    }
+
+    fn velocities(&self) -> &[Vector<D>] {
+        &self.columns.velocity
+    }
+
+    fn stress(&self, point: usize) -> Matrix<D> {
+        self.fixed.law.stress(&self.columns.state[point])
+    }
+
+    fn state(&self, point: usize) -> &[f64] {
+        self.columns.state[point].as_ref()
+    }
+
+    fn strain_energy(&self) -> f64 {
+        let states = self.columns.state.iter();
+        let densities: f64 = states.map(|s| self.fixed.law.energy_density(s)).sum();
+        self.fixed.volume * densities
+    }
+
+    fn bytes_per_point(&self) -> usize {
+        let (vector, state) = (size_of::<Vector<D>>(), size_of::<L::State>());
+        let gradient = match self.fixed.carry {
+            Carry::Affine => size_of::<Matrix<D>>(),
+            Carry::Flip { .. } => 0,
+        };
+        // places and velocities share a second copy
+        3 * vector + 2 * (gradient + state) + 2 * size_of::<u32>()
+    }
+}
+
+/// The failure of the first point of a block whose field is not `sound`.
+fn unsound<const D: usize>(places: &[Vector<D>], sound: impl Fn(usize) -> bool) -> Fault<D> {
+    let first = (0..places.len()).find(|&p| !sound(p));
+    Fault::NonFinite {
+        field: "motion",
+        place: places[first.unwrap_or(0)],
+    }
+}
+
+/// Stresses of a block.
+struct Stresses<'a, L: Law<D>, const D: usize> {
+    law: &'a L,
+    state: &'a [L::State],
+    stress: &'a mut [Matrix<D>; BLOCK],
+}
+
+impl<L: Law<D>, const D: usize> NullaryFnOnce for Stresses<'_, L, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (stress, state) in self.stress.iter_mut().zip(self.state) {
+            *stress = self.law.stress(state);
+        }
+    }
+}
+
+/// A step of the law for a block; false when an increment has no positive determinant or a state is
+/// not finite.
+struct Advance<'a, L: Law<D>, const D: usize> {
+    law: &'a L,
+    l: &'a [Matrix<D>],
+    dt: f64,
+    state: &'a mut [L::State],
+}
+
+impl<L: Law<D>, const D: usize> NullaryFnOnce for Advance<'_, L, D> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn call(self) -> bool {
+        let (mut sound, mut zero) = (true, 0.0);
+        for (l, state) in self.l.iter().zip(self.state) {
+            let (determinant, _) = inverse(&add_scaled(&identity(), self.dt, l));
+            sound &= determinant > 0.0;
+            self.law.advance(l, self.dt, state);
+            for x in state.as_ref() {
+                zero += 0.0 * x;
+            }
+        }
+        sound & (zero == 0.0)
+    }
+}
