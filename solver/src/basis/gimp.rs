@@ -29,20 +29,15 @@ impl Gimp {
         }
     }
 
-    /// Value and slope of the function at a distance of `xi` cells.
-    #[inline]
-    fn function(&self, xi: f64) -> (f64, f64) {
-        let (l, away) = (self.half, xi.abs());
-        if away >= 1.0 + l {
-            (0.0, 0.0)
-        } else if away > 1.0 - l {
-            let rest = 1.0 + l - away;
-            (rest * rest / (4.0 * l), -xi.signum() * rest / (2.0 * l))
-        } else if away >= l {
-            (1.0 - away, -xi.signum())
-        } else {
-            (1.0 - (xi * xi + l * l) / (2.0 * l), -xi / l)
-        }
+    /// Value and slope of the function of the node above a point that is `xi` cells above its nearest
+    /// node, |xi| <= 1/2: `t^2/(4 l) + max(xi - l, 0)` and `t/(2 l)` with t = xi + l between 0 and 2 l,
+    /// which are the pieces above without a branch.
+    #[inline(always)]
+    fn above(&self, xi: f64) -> (f64, f64) {
+        let l = self.half;
+        let t = (xi + l).clamp(0.0, 2.0 * l);
+        let slope = t / (2.0 * l);
+        (0.5 * t * slope + (xi - l).max(0.0), slope)
     }
 }
 
@@ -50,17 +45,16 @@ impl Basis for Gimp {
     const NAME: &'static str = "gimp";
     const WIDTH: usize = 3;
 
-    #[inline]
+    #[inline(always)]
     fn point(&self, s: f64, cells: usize) -> Along {
         let nearest = (s + 0.5).floor().min(cells as f64);
-        let (mut values, mut slopes) = ([0.0; 3], [0.0; 3]);
-        for (k, (value, slope)) in values.iter_mut().zip(&mut slopes).enumerate() {
-            (*value, *slope) = self.function(s - (nearest + k as f64 - 1.0));
-        }
+        let xi = s - nearest;
+        let (up, up_slope) = self.above(xi);
+        let (down, down_slope) = self.above(-xi);
         Along {
             first: nearest as i32 - 1,
-            values,
-            slopes,
+            values: [down, 1.0 - up - down, up],
+            slopes: [-down_slope, down_slope - up_slope, up_slope],
         }
     }
 
