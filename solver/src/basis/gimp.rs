@@ -11,7 +11,7 @@
 //! Gradients are continuous, so that a point does not jerk when it crosses a cell's face. Places
 //! without extent (receivers, surfaces, forces) see the linear functions themselves.
 
-use super::along::{Along, Basis};
+use super::along::{Along, Basis, whole};
 use super::linear::Linear;
 
 /// The basis: 3^D nodes a point.
@@ -19,6 +19,8 @@ use super::linear::Linear;
 pub struct Gimp {
     /// Half-length of a point in cells, at most 1/2.
     half: f64,
+    /// 1/(2 l).
+    per_length: f64,
 }
 
 impl Gimp {
@@ -26,6 +28,7 @@ impl Gimp {
     pub fn new(per_axis: usize) -> Self {
         Gimp {
             half: 0.5 / per_axis as f64,
+            per_length: per_axis as f64,
         }
     }
 
@@ -35,9 +38,12 @@ impl Gimp {
     #[inline(always)]
     fn above(&self, xi: f64) -> (f64, f64) {
         let l = self.half;
-        let t = (xi + l).clamp(0.0, 2.0 * l);
-        let slope = t / (2.0 * l);
-        (0.5 * t * slope + (xi - l).max(0.0), slope)
+        // comparisons that fail on NaN, as the machine's own maximum does
+        let reach = if xi > -l { xi + l } else { 0.0 };
+        let t = if xi < l { reach } else { 2.0 * l };
+        let beyond = if xi > l { xi - l } else { 0.0 };
+        let slope = t * self.per_length;
+        (0.5 * t * slope + beyond, slope)
     }
 }
 
@@ -46,13 +52,13 @@ impl Basis for Gimp {
     const WIDTH: usize = 3;
 
     #[inline(always)]
-    fn point(&self, s: f64, cells: usize) -> Along {
-        let nearest = (s + 0.5).floor().min(cells as f64);
+    fn point(&self, s: f64, _: usize) -> Along {
+        let nearest = (s + 0.5).floor();
         let xi = s - nearest;
         let (up, up_slope) = self.above(xi);
         let (down, down_slope) = self.above(-xi);
         Along {
-            first: nearest as i32 - 1,
+            first: whole(nearest) - 1,
             values: [down, 1.0 - up - down, up],
             slopes: [-down_slope, down_slope - up_slope, up_slope],
         }

@@ -109,33 +109,26 @@ impl<const D: usize, const AFFINE: bool, const KICK: bool, const MOVE: bool> Nul
 
     #[inline(always)]
     fn call(self) -> bool {
-        let mut finite = true;
-        if MOVE {
-            for (x, packed) in self.place.iter_mut().zip(self.packed) {
-                for i in 0..D {
-                    x[i] += self.dt * packed.value[0][i];
+        let keep = 1.0 - self.pic;
+        for (p, (x, packed)) in self.place.iter_mut().zip(self.packed).enumerate() {
+            let [v, a] = &packed.value;
+            if MOVE {
+                *x = std::array::from_fn(|i| x[i] + self.dt * v[i]);
+            }
+            if KICK {
+                let own = &mut self.velocity[p];
+                *own = std::array::from_fn(|i| keep * (own[i] + self.dt * a[i]) + self.pic * v[i]);
+                if !own.iter().all(|v| v.is_finite()) {
+                    return false;
                 }
             }
-        }
-        if KICK {
-            let keep = 1.0 - self.pic;
-            for (v, packed) in self.velocity.iter_mut().zip(self.packed) {
-                let [of_nodes, a] = &packed.value;
-                for i in 0..D {
-                    v[i] = keep * (v[i] + self.dt * a[i]) + self.pic * of_nodes[i];
-                    finite &= v[i].is_finite();
-                }
+            if KICK && AFFINE {
+                let own = &mut self.gradient[p];
+                *own = std::array::from_fn(|i| {
+                    std::array::from_fn(|d| own[i][d] + self.dt * packed.columns[d][1][i])
+                });
             }
         }
-        if KICK && AFFINE {
-            for (l, packed) in self.gradient.iter_mut().zip(self.packed) {
-                for i in 0..D {
-                    for d in 0..D {
-                        l[i][d] += self.dt * packed.columns[d][1][i];
-                    }
-                }
-            }
-        }
-        finite
+        true
     }
 }

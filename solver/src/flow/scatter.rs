@@ -109,9 +109,10 @@ impl<const D: usize, const W: usize> Scatter<'_, '_, D, W> {
             let mut odd: Lanes<D> = [[0.0; D]; 2];
             add::<S, D>(&mut odd, [r, r], &packed.columns[0]);
             for i in 0..W {
-                let lanes = &mut self.run.lanes[row][i];
-                add::<S, D>(lanes, [along[i], along[i]], &even);
-                add::<S, D>(lanes, [away[i], s.slopes[0][i][p]], &odd);
+                let mut lanes = self.run.lanes[row][i];
+                add::<S, D>(&mut lanes, [along[i], along[i]], &even);
+                add::<S, D>(&mut lanes, [away[i], s.slopes[0][i][p]], &odd);
+                self.run.lanes[row][i] = lanes;
             }
             for i in 0..W {
                 self.run.count[row][i] += r * along[i];
@@ -132,18 +133,14 @@ impl<const D: usize, const W: usize> Scatter<'_, '_, D, W> {
             let lanes = &mut self.run.lanes[row][..W];
             let count = &mut self.run.count[row][..W];
             for (x, lanes) in self.out.momentum[node..node + W].iter_mut().zip(&*lanes) {
-                for i in 0..D {
-                    x[i] += lanes[0][i];
-                }
+                *x = std::array::from_fn(|i| x[i] + lanes[0][i]);
             }
             if let Some((mass, force)) = &mut self.out.others {
                 for (x, count) in mass[node..node + W].iter_mut().zip(&*count) {
                     *x += self.mass * count;
                 }
                 for (x, lanes) in force[node..node + W].iter_mut().zip(&*lanes) {
-                    for i in 0..D {
-                        x[i] += lanes[1][i];
-                    }
+                    *x = std::array::from_fn(|i| x[i] + lanes[1][i]);
                 }
             }
             lanes.fill([[0.0; D]; 2]);
