@@ -64,7 +64,7 @@ impl Run {
             .collect();
         let velocities = places
             .iter()
-            .map(|x| [(0.1 * x[1]).sin(), (0.1 * x[0]).cos()]);
+            .map(|x| [0.1 * (0.1 * x[1]).sin(), 0.1 * (0.1 * x[0]).cos()]);
         let nodes = grid.node_count();
         let flow = law
             .flow(Start {
@@ -102,7 +102,7 @@ impl Run {
         } = &self.sums;
         for (k, (v, a)) in self.v.iter_mut().zip(&mut self.a).enumerate() {
             // nodes that hardly any point sees rest
-            let per_mass = if mass[k] > 1.0 { 1.0 / mass[k] } else { 0.0 };
+            let per_mass = if mass[k] > 0.02 * ELASTIC.density { 1.0 / mass[k] } else { 0.0 };
             *a = force[k].map(|f| f * per_mass);
             *v = std::array::from_fn(|i| momentum[k][i] * per_mass + dt * a[i]);
         }

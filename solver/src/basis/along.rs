@@ -37,13 +37,23 @@ pub trait Basis: Send + 'static {
     /// Nodes along an axis that a point sees.
     const WIDTH: usize;
 
-    /// At `s`, in cells from the grid's first node, of an axis of `cells` cells: what a point sees.
+    /// At `s`, in cells from the grid's first node, of an axis of `cells` cells: what a point sees. Made
+    /// for loops over points: without branches, and of no meaning beyond the grid.
     fn point(&self, s: f64, cells: usize) -> Along;
 
     /// What a place without extent sees.
     fn place(&self, s: f64, cells: usize) -> Along {
         self.point(s, cells)
     }
+}
+
+/// `x`, a whole number of a size that grids have, as an integer.
+///
+/// Adding 1.5 2^52 leaves it in the lowest bits. `as` would saturate, which no vector instruction does.
+#[inline(always)]
+pub(super) fn whole(x: f64) -> i32 {
+    const SHIFT: f64 = 1.5 * (1u64 << 52) as f64;
+    (x + SHIFT).to_bits() as i32
 }
 
 /// Gives what belongs to nodes beyond the ends of an axis of `cells` cells to those within.

@@ -9,7 +9,7 @@
 //! At the ends of the grid they are folded (see [`super::along`]), which makes them linear within
 //! half a cell of an end; there is no knot to repeat, since nodes stay at the cells' corners.
 
-use super::along::{Along, Basis};
+use super::along::{Along, Basis, whole};
 
 /// The basis: 3^D nodes a point.
 #[derive(Clone, Copy, Debug)]
@@ -20,12 +20,12 @@ impl Basis for QuadraticBSpline {
     const WIDTH: usize = 3;
 
     #[inline(always)]
-    fn point(&self, s: f64, cells: usize) -> Along {
-        let nearest = (s + 0.5).floor().min(cells as f64);
+    fn point(&self, s: f64, _: usize) -> Along {
+        let nearest = (s + 0.5).floor();
         let xi = s - nearest;
         let (down, up) = (0.5 - xi, 0.5 + xi);
         Along {
-            first: nearest as i32 - 1,
+            first: whole(nearest) - 1,
             values: [0.5 * down * down, 0.75 - xi * xi, 0.5 * up * up],
             slopes: [-down, -2.0 * xi, up],
         }

@@ -11,7 +11,7 @@
 //! Gradients are continuous, so that a point does not jerk when it crosses a cell's face. Places
 //! without extent (receivers, surfaces, forces) see the linear functions themselves.
 
-use super::along::{Along, Basis};
+use super::along::{Along, Basis, whole};
 use super::linear::Linear;
 
 /// The basis: 3^D nodes a point.
@@ -19,6 +19,8 @@ use super::linear::Linear;
 pub struct Gimp {
     /// Half-length of a point in cells, at most 1/2.
     half: f64,
+    /// 1/(2 l).
+    per_length: f64,
 }
 
 impl Gimp {
@@ -26,23 +28,22 @@ impl Gimp {
     pub fn new(per_axis: usize) -> Self {
         Gimp {
             half: 0.5 / per_axis as f64,
+            per_length: per_axis as f64,
         }
     }
 
-    /// Value and slope of the function at a distance of `xi` cells.
-    #[inline]
-    fn function(&self, xi: f64) -> (f64, f64) {
-        let (l, away) = (self.half, xi.abs());
-        if away >= 1.0 + l {
-            (0.0, 0.0)
-        } else if away > 1.0 - l {
-            let rest = 1.0 + l - away;
-            (rest * rest / (4.0 * l), -xi.signum() * rest / (2.0 * l))
-        } else if away >= l {
-            (1.0 - away, -xi.signum())
-        } else {
-            (1.0 - (xi * xi + l * l) / (2.0 * l), -xi / l)
-        }
+    /// Value and slope of the function of the node above a point that is `xi` cells above its nearest
+    /// node, |xi| <= 1/2: `t^2/(4 l) + max(xi - l, 0)` and `t/(2 l)` with t = xi + l between 0 and 2 l,
+    /// which are the pieces above without a branch.
+    #[inline(always)]
+    fn above(&self, xi: f64) -> (f64, f64) {
+        let l = self.half;
+        // comparisons that fail on NaN, as the machine's own maximum does
+        let reach = if xi > -l { xi + l } else { 0.0 };
+        let t = if xi < l { reach } else { 2.0 * l };
+        let beyond = if xi > l { xi - l } else { 0.0 };
+        let slope = t * self.per_length;
+        (0.5 * t * slope + beyond, slope)
     }
 }
 
@@ -50,17 +51,16 @@ impl Basis for Gimp {
     const NAME: &'static str = "gimp";
     const WIDTH: usize = 3;
 
-    #[inline]
-    fn point(&self, s: f64, cells: usize) -> Along {
-        let nearest = (s + 0.5).floor().min(cells as f64);
-        let (mut values, mut slopes) = ([0.0; 3], [0.0; 3]);
-        for (k, (value, slope)) in values.iter_mut().zip(&mut slopes).enumerate() {
-            (*value, *slope) = self.function(s - (nearest + k as f64 - 1.0));
-        }
+    #[inline(always)]
+    fn point(&self, s: f64, _: usize) -> Along {
+        let nearest = (s + 0.5).floor();
+        let xi = s - nearest;
+        let (up, up_slope) = self.above(xi);
+        let (down, down_slope) = self.above(-xi);
         Along {
-            first: nearest as i32 - 1,
-            values,
-            slopes,
+            first: whole(nearest) - 1,
+            values: [down, 1.0 - up - down, up],
+            slopes: [-down_slope, down_slope - up_slope, up_slope],
         }
     }
 

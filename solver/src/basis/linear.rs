@@ -1,6 +1,6 @@
 //! Linear functions, `N = 1 - |xi|` over a cell either side.
 
-use super::along::{Along, Basis};
+use super::along::{Along, Basis, whole};
 
 /// The multilinear basis: 2^D nodes a point.
 #[derive(Clone, Copy, Debug)]
@@ -13,10 +13,11 @@ impl Basis for Linear {
     /// A place on the upper end of the grid belongs to the last cell.
     #[inline(always)]
     fn point(&self, s: f64, cells: usize) -> Along {
-        let cell = (s as usize).min(cells - 1);
-        let up = s - cell as f64;
+        let (below, last) = (s.floor(), cells as f64 - 1.0);
+        let cell = if below < last { below } else { last };
+        let up = s - cell;
         Along {
-            first: cell as i32,
+            first: whole(cell),
             values: [1.0 - up, up, 0.0],
             slopes: [-1.0, 1.0, 0.0],
         }

@@ -2,7 +2,8 @@
 
 use super::columns::{Columns, Part, Sorting};
 use super::gather::Gather;
-use super::scatter::Scatter;
+use super::lanes::{PackMotion, Packed, Unpack};
+use super::scatter::{Run, Scatter};
 use super::stencils::Stencils;
 use super::strips::{Strips, Sums, each};
 use super::{Carry, Fault, Flow, NodeSums, Start};
@@ -114,7 +115,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
     }
 
     /// A pass to the nodes: the strips of one colour, then those of the other.
-    fn scatter<const FORCE: bool>(&self, mut out: Sums<'_, D>) -> Result<(), Fault<D>> {
+    fn scatter(&self, mut out: Sums<'_, D>) -> Result<(), Fault<D>> {
         let strips = &self.strips;
         for colour in 0..2 {
             each(
@@ -122,50 +123,53 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
                 out.again(),
                 self.fixed.shared,
                 &|out, k| out.split_at(strips.first_node(colour, k)),
-                &|k, mut out| self.scatter_strip::<FORCE>(2 * k + colour, &mut out),
+                &|k, mut out| self.scatter_strip(2 * k + colour, &mut out),
             )?;
         }
         Ok(())
     }
 
-    fn scatter_strip<const FORCE: bool>(
-        &self,
-        strip: usize,
-        out: &mut Sums<'_, D>,
-    ) -> Result<(), Fault<D>> {
+    fn scatter_strip(&self, strip: usize, out: &mut Sums<'_, D>) -> Result<(), Fault<D>> {
         let (fixed, columns) = (&self.fixed, &self.columns);
-        let mut stencils = Stencils::new();
-        let mut stress = [zero(); BLOCK];
+        let (mut stencils, mut run) = (Stencils::new(), Run::new());
+        let mut packed = [Packed::ZERO; BLOCK];
         for block in blocks(self.strips.points[strip]..self.strips.points[strip + 1]) {
             fixed.fill(&mut stencils, &columns.place[block.clone()])?;
-            if FORCE {
-                fixed.arch.dispatch(Stresses {
+            let gradient: &[Matrix<D>] = match fixed.carry {
+                Carry::Affine => &columns.gradient[block.clone()],
+                Carry::Flip { .. } => &[],
+            };
+            fixed.arch.dispatch(PackMotion {
+                mass: fixed.mass,
+                velocity: &columns.velocity[block.clone()],
+                gradient,
+                packed: &mut packed,
+            });
+            if out.others.is_some() {
+                fixed.arch.dispatch(PackStress {
                     law: &fixed.law,
+                    volume: fixed.volume,
                     state: &columns.state[block.clone()],
-                    stress: &mut stress,
+                    packed: &mut packed,
                 });
             }
-            let velocity = &columns.velocity[block.clone()];
             macro_rules! pass {
-                ($width:literal, $affine:literal, $gradient:expr) => {
-                    fixed.arch.dispatch(Scatter::<D, $width, $affine, FORCE> {
+                ($width:literal) => {
+                    fixed.arch.dispatch(Scatter::<D, $width> {
+                        n: block.len(),
                         stencils: &stencils,
                         h: &fixed.grid.h,
                         stride: fixed.stride,
                         mass: fixed.mass,
-                        volume: fixed.volume,
-                        velocity,
-                        gradient: $gradient,
-                        stress: &stress,
+                        packed: &packed,
+                        run: &mut run,
                         out,
                     })
                 };
             }
-            match (B::WIDTH, fixed.carry) {
-                (2, Carry::Affine) => pass!(2, true, &columns.gradient[block]),
-                (2, Carry::Flip { .. }) => pass!(2, false, &[]),
-                (_, Carry::Affine) => pass!(3, true, &columns.gradient[block]),
-                (_, Carry::Flip { .. }) => pass!(3, false, &[]),
+            match B::WIDTH {
+                2 => pass!(2),
+                _ => pass!(3),
             }
         }
         Ok(())
@@ -233,33 +237,39 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
         nodes: Nodes<'_, D>,
         block: &mut Part<'_, L::State, D>,
     ) -> Result<(), Fault<D>> {
-        let mut l = [zero(); BLOCK];
-        let pic = match self.carry {
-            Carry::Affine => 0.0,
-            Carry::Flip { pic } => pic,
-        };
-        macro_rules! pass {
-            ($width:literal, $affine:literal) => {
-                self.arch
-                    .dispatch(Gather::<D, $width, $affine, KICK, MOVE> {
-                        stencils,
-                        stride: self.stride,
-                        v: nodes.v,
-                        a: nodes.a,
-                        dt: nodes.dt,
-                        pic,
-                        place: block.place,
-                        velocity: block.velocity,
-                        gradient: block.gradient,
-                        l: &mut l,
-                    })
+        let n = block.place.len();
+        let mut packed = [Packed::ZERO; BLOCK];
+        macro_rules! gather {
+            ($width:literal) => {
+                self.arch.dispatch(Gather::<D, $width> {
+                    n,
+                    stencils,
+                    stride: self.stride,
+                    v: nodes.v,
+                    a: nodes.a,
+                    packed: &mut packed,
+                })
             };
         }
-        let finite = match (B::WIDTH, self.carry) {
-            (2, Carry::Affine) => pass!(2, true),
-            (2, Carry::Flip { .. }) => pass!(2, false),
-            (_, Carry::Affine) => pass!(3, true),
-            (_, Carry::Flip { .. }) => pass!(3, false),
+        match B::WIDTH {
+            2 => gather!(2),
+            _ => gather!(3),
+        }
+        macro_rules! unpack {
+            ($affine:literal, $pic:expr) => {
+                self.arch.dispatch(Unpack::<D, $affine, KICK, MOVE> {
+                    packed: &packed,
+                    dt: nodes.dt,
+                    pic: $pic,
+                    place: block.place,
+                    velocity: block.velocity,
+                    gradient: block.gradient,
+                })
+            };
+        }
+        let finite = match self.carry {
+            Carry::Affine => unpack!(true, 0.0),
+            Carry::Flip { pic } => unpack!(false, pic),
         };
         if !finite {
             return Err(unsound(block.place, |p| {
@@ -269,18 +279,19 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
         if !MOVE {
             return Ok(());
         }
-        let l = &l[..block.place.len()];
+        let packed = &packed[..n];
         let sound = self.arch.dispatch(Advance {
             law: &self.law,
-            l,
+            packed,
             dt: nodes.dt,
             state: block.state,
         });
         if sound {
             return Ok(());
         }
-        for (l, &place) in l.iter().zip(block.place.iter()) {
-            let (determinant, _) = inverse(&add_scaled(&identity(), nodes.dt, l));
+        for (packed, &place) in packed.iter().zip(block.place.iter()) {
+            let increment = add_scaled(&identity(), nodes.dt, &packed.gradient());
+            let (determinant, _) = inverse(&increment);
             if determinant <= 0.0 {
                 return Err(Fault::Inverted { place, determinant });
             }
@@ -296,7 +307,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
         if *self.strayed.get_mut() || self.age >= SORT_EVERY {
             self.sort()?;
         }
-        self.scatter::<true>(Sums::all(out))
+        self.scatter(Sums::all(out))
     }
 
     fn to_points(&mut self, v: &[Vector<D>], a: &[Vector<D>], dt: f64) -> Result<(), Fault<D>> {
@@ -308,7 +319,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
     }
 
     fn momentum(&mut self, out: &mut [Vector<D>]) -> Result<(), Fault<D>> {
-        self.scatter::<false>(Sums {
+        self.scatter(Sums {
             first: 0,
             momentum: out,
             others: None,
@@ -373,20 +384,27 @@ fn unsound<const D: usize>(places: &[Vector<D>], sound: impl Fn(usize) -> bool) 
     }
 }
 
-/// Stresses of a block.
-struct Stresses<'a, L: Law<D>, const D: usize> {
+/// Packs the stresses of a block.
+struct PackStress<'a, L: Law<D>, const D: usize> {
     law: &'a L,
+    /// Volume of a point at the start (m3).
+    volume: f64,
     state: &'a [L::State],
-    stress: &'a mut [Matrix<D>; BLOCK],
+    packed: &'a mut [Packed<D>; BLOCK],
 }
 
-impl<L: Law<D>, const D: usize> NullaryFnOnce for Stresses<'_, L, D> {
+impl<L: Law<D>, const D: usize> NullaryFnOnce for PackStress<'_, L, D> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        for (stress, state) in self.stress.iter_mut().zip(self.state) {
-            *stress = self.law.stress(state);
+        for (packed, state) in self.packed.iter_mut().zip(self.state) {
+            let stress = self.law.stress(state);
+            for d in 0..D {
+                for i in 0..D {
+                    packed.columns[d][1][i] = -self.volume * stress[i][d];
+                }
+            }
         }
     }
 }
@@ -395,7 +413,7 @@ impl<L: Law<D>, const D: usize> NullaryFnOnce for Stresses<'_, L, D> {
 /// not finite.
 struct Advance<'a, L: Law<D>, const D: usize> {
     law: &'a L,
-    l: &'a [Matrix<D>],
+    packed: &'a [Packed<D>],
     dt: f64,
     state: &'a mut [L::State],
 }
@@ -405,15 +423,16 @@ impl<L: Law<D>, const D: usize> NullaryFnOnce for Advance<'_, L, D> {
 
     #[inline(always)]
     fn call(self) -> bool {
-        let (mut sound, mut zero) = (true, 0.0);
-        for (l, state) in self.l.iter().zip(self.state) {
-            let (determinant, _) = inverse(&add_scaled(&identity(), self.dt, l));
+        let mut sound = true;
+        for (packed, state) in self.packed.iter().zip(self.state) {
+            let l = packed.gradient();
+            let (determinant, _) = inverse(&add_scaled(&identity(), self.dt, &l));
             sound &= determinant > 0.0;
-            self.law.advance(l, self.dt, state);
+            self.law.advance(&l, self.dt, state);
             for x in state.as_ref() {
-                zero += 0.0 * x;
+                sound &= x.is_finite();
             }
         }
-        sound & (zero == 0.0)
+        sound
     }
 }

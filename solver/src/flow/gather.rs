@@ -1,28 +1,23 @@
 //! From the nodes to a block of points.
 //!
-//! Velocity and acceleration of a node stand side by side in the lanes of one vector `f`. By rows of
-//! nodes along the first axis, with `r` and `r_d` as in [`super::scatter`]:
+//! Velocity and acceleration of a node stand side by side in `f`. By rows of nodes along the first
+//! axis, with `r` and `r_d` as in [`super::scatter`]:
 //!
 //! ```text
 //! sum N f = sum r (sum n_x f),   d/dx = sum r (sum n_x' f),   d/dx_d = sum r_d (sum n_x f)
 //! ```
 
+use super::lanes::{Lanes, Packed, add};
 use super::stencils::Stencils;
 use crate::basis::along::WIDEST;
 use crate::points::BLOCK;
-use crate::tensor::{Matrix, Vector};
-use pulp::NullaryFnOnce;
+use crate::tensor::Vector;
+use pulp::{Simd, WithSimd};
 
-/// A block of points and the motion of the nodes. `W` nodes along an axis; `AFFINE`: gradients are
-/// there; `KICK`: the motion of the points changes; `MOVE`: their places do.
-pub(super) struct Gather<
-    'a,
-    const D: usize,
-    const W: usize,
-    const AFFINE: bool,
-    const KICK: bool,
-    const MOVE: bool,
-> {
+/// A block of points that see `W` nodes along an axis, and the motion of the nodes.
+pub(super) struct Gather<'a, const D: usize, const W: usize> {
+    /// Number of points.
+    pub n: usize,
     pub stencils: &'a Stencils<D>,
     /// From a node to the next along each axis.
     pub stride: [usize; D],
@@ -30,50 +25,33 @@ pub(super) struct Gather<
     pub v: &'a [Vector<D>],
     /// Accelerations of all nodes (m/s2).
     pub a: &'a [Vector<D>],
-    /// The step (s).
-    pub dt: f64,
-    /// Share of the nodes' velocity.
-    pub pic: f64,
-    pub place: &'a mut [Vector<D>],
-    pub velocity: &'a mut [Vector<D>],
-    pub gradient: &'a mut [Matrix<D>],
-    /// Gradient of the nodes' velocity (1/s), for the law.
-    pub l: &'a mut [Matrix<D>; BLOCK],
+    /// `[v, a]` and its derivatives at each point.
+    pub packed: &'a mut [Packed<D>; BLOCK],
 }
-
-/// Velocity and acceleration side by side.
-type Lanes<const D: usize> = [[f64; D]; 2];
 
 /// Most rows of nodes that a point sees.
 const ROWS: usize = WIDEST * WIDEST;
 
-impl<const D: usize, const W: usize, const AFFINE: bool, const KICK: bool, const MOVE: bool>
-    NullaryFnOnce for Gather<'_, D, W, AFFINE, KICK, MOVE>
-{
-    /// Are all new velocities finite?
-    type Output = bool;
+impl<const D: usize, const W: usize> WithSimd for Gather<'_, D, W> {
+    type Output = ();
 
     #[inline(always)]
-    fn call(mut self) -> bool {
-        let n = self.place.len().min(BLOCK);
+    fn with_simd<S: Simd>(mut self, _: S) {
+        let n = self.n.min(BLOCK);
         let mut nodes = [[[[0.0; D]; 2]; WIDEST]; ROWS];
         let mut last = u32::MAX;
-        let mut zero = 0.0;
         for p in 0..n {
             let base = self.stencils.base[p];
             if base != last {
                 self.load(base as usize, &mut nodes);
                 last = base;
             }
-            zero += self.point(p, &nodes);
+            self.point::<S>(p, &nodes);
         }
-        zero == 0.0
     }
 }
 
-impl<const D: usize, const W: usize, const AFFINE: bool, const KICK: bool, const MOVE: bool>
-    Gather<'_, D, W, AFFINE, KICK, MOVE>
-{
+impl<const D: usize, const W: usize> Gather<'_, D, W> {
     /// Rows of nodes that a point sees.
     const ROWS: usize = W.pow(D as u32 - 1);
 
@@ -94,12 +72,11 @@ impl<const D: usize, const W: usize, const AFFINE: bool, const KICK: bool, const
         }
     }
 
-    /// Moves point `p`; returns zero when its new velocity is finite, NaN otherwise.
+    /// What point `p` gets.
     #[inline(always)]
-    fn point(&mut self, p: usize, nodes: &[[Lanes<D>; WIDEST]; ROWS]) -> f64 {
+    fn point<S: Simd>(&mut self, p: usize, nodes: &[[Lanes<D>; WIDEST]; ROWS]) {
         let s = self.stencils;
-        let mut value: Lanes<D> = [[0.0; D]; 2];
-        let mut slopes: [Lanes<D>; D] = [[[0.0; D]; 2]; D];
+        let mut packed = Packed::ZERO;
         for row in 0..Self::ROWS {
             let mut index = [0; D];
             let mut rest = row;
@@ -111,11 +88,12 @@ impl<const D: usize, const W: usize, const AFFINE: bool, const KICK: bool, const
             }
             let (mut line, mut line_slope): (Lanes<D>, Lanes<D>) = ([[0.0; D]; 2], [[0.0; D]; 2]);
             for i in 0..W {
-                add(&mut line, s.values[0][i][p], &nodes[row][i]);
-                add(&mut line_slope, s.slopes[0][i][p], &nodes[row][i]);
+                let (n, slope) = (s.values[0][i][p], s.slopes[0][i][p]);
+                add::<S, D>(&mut line, [n, n], &nodes[row][i]);
+                add::<S, D>(&mut line_slope, [slope, slope], &nodes[row][i]);
             }
-            add(&mut value, r, &line);
-            add(&mut slopes[0], r, &line_slope);
+            add::<S, D>(&mut packed.value, [r, r], &line);
+            add::<S, D>(&mut packed.columns[0], [r, r], &line_slope);
             for d in 1..D {
                 let mut slope = s.slopes[d][index[d]][p];
                 for e in 1..D {
@@ -123,44 +101,9 @@ impl<const D: usize, const W: usize, const AFFINE: bool, const KICK: bool, const
                         slope *= s.values[e][index[e]][p];
                     }
                 }
-                add(&mut slopes[d], slope, &line);
+                add::<S, D>(&mut packed.columns[d], [slope, slope], &line);
             }
         }
-        if MOVE {
-            for i in 0..D {
-                self.place[p][i] += self.dt * value[0][i];
-            }
-            for i in 0..D {
-                for d in 0..D {
-                    self.l[p][i][d] = slopes[d][0][i];
-                }
-            }
-        }
-        let mut zero = 0.0;
-        if KICK {
-            for i in 0..D {
-                let v = &mut self.velocity[p][i];
-                *v = (1.0 - self.pic) * (*v + self.dt * value[1][i]) + self.pic * value[0][i];
-                zero += 0.0 * *v;
-            }
-            if AFFINE {
-                for i in 0..D {
-                    for d in 0..D {
-                        self.gradient[p][i][d] += self.dt * slopes[d][1][i];
-                    }
-                }
-            }
-        }
-        zero
-    }
-}
-
-/// `sum += s x`.
-#[inline(always)]
-fn add<const D: usize>(sum: &mut Lanes<D>, s: f64, x: &Lanes<D>) {
-    for c in 0..2 {
-        for i in 0..D {
-            sum[c][i] += s * x[c][i];
-        }
+        self.packed[p] = packed;
     }
 }

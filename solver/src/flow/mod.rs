@@ -24,6 +24,7 @@
 mod body;
 mod columns;
 mod gather;
+mod lanes;
 mod scatter;
 mod stencils;
 mod strips;

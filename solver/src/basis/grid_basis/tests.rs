@@ -125,7 +125,7 @@ fn functions_are_the_hats_averaged_over_the_point() {
         let along = basis.point(s, 8);
         let samples = 20_000;
         for (k, value) in along.values.iter().enumerate() {
-            let node = (along.first + k as isize) as f64;
+            let node = (along.first + k as i32) as f64;
             let mean: f64 = (0..samples)
                 .map(|i| s - 0.25 + 0.5 * (f64::from(i) + 0.5) / f64::from(samples))
                 .map(|x| (1.0 - (x - node).abs()).max(0.0))
