@@ -98,9 +98,9 @@ impl Column {
                 continue; // the held base
             }
             after[n] = before[n] + STEP * force[n] / mass[n];
-            if contact.touches(wall - place, least[n], 1.0)
-                && let Some(r) = contact.respond(mass[n], &[after[n]], &[-SPEED], &[-1.0])
-            {
+            let share = contact.share(wall - place, least[n], 1.0, STEP);
+            let trial = [after[n]];
+            if let Some(r) = contact.respond(mass[n], &trial, &[-SPEED], &[-1.0], share) {
                 after[n] = r.velocity[0];
                 impulse -= r.impulse[0];
             }
@@ -157,28 +157,31 @@ fn blow(offset: f64, reach: f64, by_points: bool) -> Blow {
 
 const OFFSETS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
+/// The widest reach that keeps a body's outline within a quarter of a cell.
+const REACH: f64 = 0.75;
+
 #[test]
-fn with_points_that_touch_a_whole_cell_gives_the_shock() {
+fn with_points_that_touch_the_blow_comes_in_time_and_with_its_force() {
     for offset in OFFSETS {
-        let own = blow(offset, 1.0, true);
+        let own = blow(offset, REACH, true);
         assert!(own.early.abs() < 0.03, "{own:?}");
-        assert!((own.mean - exact()).abs() < 0.003, "{own:?} {}", exact());
-        assert!(own.scatter < 0.02, "{own:?}");
-        assert!(own.depth < 0.02, "{own:?}");
+        assert!((own.mean - exact()).abs() < 0.01, "{own:?} {}", exact());
+        assert!(own.scatter < 0.05, "{own:?}");
+        assert!((0.0..0.1).contains(&own.depth), "{own:?}");
     }
 }
 
 #[test]
-fn a_narrower_reach_starts_in_time_too_but_shakes_and_lets_points_in() {
+fn a_wider_reach_is_smoother_and_none_lets_points_in() {
     for offset in OFFSETS {
-        let (half, none) = (blow(offset, 0.5, true), blow(offset, 0.0, true));
-        for own in [&half, &none] {
-            assert!(own.early.abs() < 0.05, "{own:?}");
-            assert!((own.mean - exact()).abs() < 0.02, "{own:?}");
+        let [none, own, wide] = [0.0, REACH, 1.5].map(|reach| blow(offset, reach, true));
+        for blow in [&none, &wide] {
+            assert!(blow.early.abs() < 0.05, "{blow:?}");
+            assert!((blow.mean - exact()).abs() < 0.02, "{blow:?}");
         }
-        assert!((0.01..0.05).contains(&half.scatter), "{half:?}");
-        assert!((0.05..0.12).contains(&none.scatter), "{none:?}");
-        assert!((0.01..0.06).contains(&half.depth), "{half:?}");
+        assert!(none.scatter > 1.5 * own.scatter, "{none:?} {own:?}");
+        assert!(own.scatter > 1.2 * wide.scatter, "{own:?} {wide:?}");
+        assert!(none.depth > 1.5 * own.depth && own.depth > wide.depth);
         assert!((0.1..0.25).contains(&none.depth), "{none:?}");
     }
 }
@@ -186,12 +189,8 @@ fn a_narrower_reach_starts_in_time_too_but_shakes_and_lets_points_in() {
 /// What the points' gap is for: by nodes alone the wall strikes before it is there.
 #[test]
 fn by_nodes_alone_contact_comes_early() {
-    let worst = OFFSETS.map(|offset| blow(offset, 0.0, false).early);
-    assert!(worst.iter().any(|&early| early > 0.6), "{worst:?}");
-    for offset in OFFSETS {
-        let own = blow(offset, 1.0, false);
-        assert!(own.early > 0.9, "{own:?}");
-        assert!(own.mean > 1.15 * exact(), "{own:?}");
-        assert!(own.depth < -0.5, "{own:?}");
+    for reach in [0.0, REACH] {
+        let early = OFFSETS.map(|offset| blow(offset, reach, false).early);
+        assert!(early.iter().any(|&early| early > 0.6), "{early:?}");
     }
 }

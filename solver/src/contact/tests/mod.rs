@@ -34,7 +34,7 @@ fn without_friction_only_the_approach_is_taken() {
     let (approach, slide) = parts(&velocity);
     assert!(approach < 0.0);
     let response = contact(0.0)
-        .respond(MASS, &velocity, &BODY, &NORMAL)
+        .respond(MASS, &velocity, &BODY, &NORMAL, 1.0)
         .unwrap();
     let (after, slide_after) = parts(&response.velocity);
     assert!(after.abs() < 1e-14);
@@ -47,7 +47,7 @@ fn without_friction_only_the_approach_is_taken() {
 fn what_parts_is_not_pulled() {
     let mut parting = 0;
     for velocity in velocities() {
-        let response = contact(0.3).respond(MASS, &velocity, &BODY, &NORMAL);
+        let response = contact(0.3).respond(MASS, &velocity, &BODY, &NORMAL, 1.0);
         assert_eq!(response.is_none(), parts(&velocity).0 >= 0.0);
         if let Some(response) = response {
             assert!(dot(&response.impulse, &NORMAL) > 0.0);
@@ -61,7 +61,7 @@ fn what_parts_is_not_pulled() {
 #[test]
 fn impulse_is_the_change_of_momentum() {
     for velocity in velocities() {
-        if let Some(response) = contact(0.3).respond(MASS, &velocity, &BODY, &NORMAL) {
+        if let Some(response) = contact(0.3).respond(MASS, &velocity, &BODY, &NORMAL, 1.0) {
             for i in 0..2 {
                 let change = MASS * (response.velocity[i] - velocity[i]);
                 assert!((change - response.impulse[i]).abs() < 1e-13);
@@ -74,7 +74,7 @@ fn impulse_is_the_change_of_momentum() {
 fn friction_stays_in_the_cone_and_against_the_motion() {
     let (mut sticking, mut sliding) = (0, 0);
     for velocity in velocities() {
-        let Some(response) = contact(0.3).respond(MASS, &velocity, &BODY, &NORMAL) else {
+        let Some(response) = contact(0.3).respond(MASS, &velocity, &BODY, &NORMAL, 1.0) else {
             continue;
         };
         let along = response.impulse[0] * 0.8 + response.impulse[1] * 0.6;
@@ -102,7 +102,7 @@ fn sticking_turns_to_sliding_at_the_coefficient() {
         BODY[1] - NORMAL[1] + 0.5 * 0.6,
     ];
     let left = |friction| {
-        let response = contact(friction).respond(MASS, &velocity, &BODY, &NORMAL);
+        let response = contact(friction).respond(MASS, &velocity, &BODY, &NORMAL, 1.0);
         parts(&response.unwrap().velocity).1
     };
     assert!(left(0.5001).abs() < 1e-14);
@@ -114,7 +114,8 @@ fn sticking_turns_to_sliding_at_the_coefficient() {
 fn in_the_bodys_frame_energy_never_grows() {
     for friction in [0.0, 0.3, 2.0] {
         for velocity in velocities() {
-            if let Some(response) = contact(friction).respond(MASS, &velocity, &BODY, &NORMAL) {
+            if let Some(response) = contact(friction).respond(MASS, &velocity, &BODY, &NORMAL, 1.0)
+            {
                 let energy = |v: &Vector<2>| {
                     let (n, t) = parts(v);
                     n * n + t * t
@@ -129,7 +130,7 @@ fn in_the_bodys_frame_energy_never_grows() {
 fn friction_in_three_dimensions_is_against_the_slide() {
     let contact = contact(0.5);
     let response = contact
-        .respond(1.0, &[3.0, 4.0, -2.0], &[0.0; 3], &[0.0, 0.0, 1.0])
+        .respond(1.0, &[3.0, 4.0, -2.0], &[0.0; 3], &[0.0, 0.0, 1.0], 1.0)
         .unwrap();
     // Normal impulse 2, so 1 along the slide of 5 in the direction (0.6, 0.8).
     let expected = [-0.6, -0.8, 2.0];
@@ -139,12 +140,40 @@ fn friction_in_three_dimensions_is_against_the_slide() {
 }
 
 #[test]
+fn part_of_a_touch_takes_part_of_the_approach_and_less_friction() {
+    let velocity = [BODY[0] - 0.6 + 0.8, BODY[1] + 0.8 + 0.6];
+    assert!((parts(&velocity).0 + 1.0).abs() < 1e-14 && (parts(&velocity).1 - 1.0).abs() < 1e-14);
+    let response = contact(0.5)
+        .respond(MASS, &velocity, &BODY, &NORMAL, 0.4)
+        .unwrap();
+    let (normal, slide) = parts(&response.velocity);
+    // 0.4 of the approach of 1, and half of that off the slide of 1.
+    assert!((normal + 0.6).abs() < 1e-14);
+    assert!((slide - 0.8).abs() < 1e-14);
+    assert_eq!(
+        contact(0.5).respond(MASS, &velocity, &BODY, &NORMAL, 0.0),
+        None
+    );
+}
+
+#[test]
 fn a_node_counts_when_points_touch_and_it_is_near() {
-    let contact = contact(0.0);
-    assert!(contact.touches(0.09, -0.001, 0.1));
-    assert!(contact.touches(-0.5, 0.0, 0.1));
-    assert!(!contact.touches(0.09, 0.001, 0.1));
-    assert!(!contact.touches(0.11, -0.001, 0.1));
+    let share = |distance, gap| contact(0.0).share(distance, gap, 0.1, 0.2);
+    assert_eq!(share(-0.05, 0.0), 1.0);
+    assert_eq!(share(0.0, -0.01), 1.0);
+    assert_eq!(share(-0.05, 0.001), 0.0);
+    // A tenth of the reach left: 4 * 0.2 * 0.01; none left beyond.
+    assert!((share(0.09, -0.001) - 0.008).abs() < 1e-15);
+    assert_eq!(share(0.1, -0.001), 0.0);
+    assert_eq!(share(0.11, -0.001), 0.0);
+    let narrow = Contact {
+        friction: 0.0,
+        reach: 0.0,
+    };
+    assert_eq!(narrow.share(1e-9, -0.001, 0.1, 0.4), 0.0);
+    assert_eq!(narrow.share(0.0, -0.001, 0.1, 0.4), 1.0);
+    // Steps that are long for the dashpot stop at the body's velocity.
+    assert_eq!(contact(0.0).share(0.001, -0.001, 0.1, 0.9), 1.0);
 }
 
 #[test]
