@@ -20,6 +20,8 @@ pub(crate) struct Touch<const D: usize> {
     reach: Vector<D>,
     /// Step in which a point that touches has last reached each node.
     reached: Vec<u32>,
+    /// Of the fastest wave (m/s).
+    speed: f64,
     step: u32,
     impulse: Vector<D>,
     dt: f64,
@@ -28,15 +30,22 @@ pub(crate) struct Touch<const D: usize> {
 }
 
 impl<const D: usize> Touch<D> {
-    /// Of `intruder` with material on `grid`, filled with `per_axis` points along each axis of a cell,
-    /// each reaching nodes within `reach` cells.
-    pub(crate) fn new(intruder: &Intruder, grid: &Grid<D>, per_axis: usize, reach: f64) -> Self {
+    /// Of `intruder` with material of wave `speed` (m/s) on `grid`, filled with `per_axis` points along
+    /// each axis of a cell, each reaching nodes within `reach` cells.
+    pub(crate) fn new(
+        intruder: &Intruder,
+        grid: &Grid<D>,
+        per_axis: usize,
+        reach: f64,
+        speed: f64,
+    ) -> Self {
         Touch {
             name: intruder.name.clone(),
             body: intruder.body,
             contact: intruder.contact,
             half_extent: grid.h.map(|h| 0.5 * h / per_axis as f64),
             reach: grid.h.map(|h| reach * h),
+            speed,
             reached: vec![0; grid.node_count()],
             grid: grid.clone(),
             step: 0,
@@ -97,6 +106,7 @@ impl<const D: usize> NodeTerm<D> for Touch<D> {
         self.impulse = [0.0; D];
         let velocity = in_space(self.body.velocity(start, self.dt));
         let h = self.grid.h[..2].iter().copied().fold(0.0, f64::max);
+        let courant = self.speed * self.dt / h;
         for (node, v) in v.iter_mut().enumerate() {
             if self.reached[node] != self.step || step.mass[node][0] <= 0.0 {
                 continue;
@@ -104,12 +114,10 @@ impl<const D: usize> NodeTerm<D> for Touch<D> {
             let x = self.grid.node_place(node);
             let distance = self.body.distance(&[x[0], x[1]], start);
             // a point that touches has reached the node
-            if !self.contact.touches(distance.gap, 0.0, h) {
-                continue;
-            }
+            let share = self.contact.share(distance.gap, 0.0, h, courant);
             let normal = in_space(distance.normal);
             let mass = step.mass[node][0];
-            if let Some(response) = self.contact.respond(mass, v, &velocity, &normal) {
+            if let Some(response) = self.contact.respond(mass, v, &velocity, &normal, share) {
                 *v = response.velocity;
                 for i in 0..D {
                     self.impulse[i] += response.impulse[i];

@@ -228,6 +228,7 @@ pub(super) fn intruders<const D: usize>(
             &geometry.grid,
             geometry.per_axis,
             reach,
+            problem.material.p_speed(),
         )));
     }
     Ok(terms)
