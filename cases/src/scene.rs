@@ -48,6 +48,16 @@ pub trait Scene: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Pictures of the scene's own numbers.
+    fn pictures(&self) -> Vec<OwnPicture> {
+        Vec::new()
+    }
+
+    /// The curve of a run in the picture called `name`.
+    fn curve(&self, _name: &str, _run: &Record) -> Option<Curve> {
+        None
+    }
+
     /// Which of the paper's tests this is, as [`anechoic_reference::paper`] names it.
     fn paper_test(&self) -> Option<&'static str> {
         None
@@ -76,6 +86,34 @@ pub trait Scene: Debug + Send + Sync {
     fn serves_until_s(&self) -> Option<f64> {
         None
     }
+}
+
+/// Abscissae and ordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Abscissae, increasing.
+    pub x: Vec<f64>,
+    /// Values.
+    pub y: Vec<f64>,
+}
+
+/// A picture of one of the scene's own numbers, all methods in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OwnPicture {
+    /// File name without extension.
+    pub name: &'static str,
+    /// Title.
+    pub title: &'static str,
+    /// What it shows and how to read it.
+    pub caption: &'static str,
+    /// Name and unit of the abscissae.
+    pub x: (&'static str, &'static str),
+    /// Name and unit of the ordinates.
+    pub y: (&'static str, &'static str),
+    /// What is true, with its name.
+    pub truth: Option<(&'static str, Curve)>,
+    /// Places on the way with what happens there.
+    pub marks: Vec<(f64, String)>,
 }
 
 /// Runs of the same study that a run is set beside.

@@ -21,7 +21,9 @@ mod values;
 
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
-use crate::scene::{self, Beside, OwnNumber, Reference, Scene, SceneClaim, SceneInfo, Window};
+use crate::scene::{
+    self, Beside, Curve, OwnNumber, OwnPicture, Reference, Scene, SceneClaim, SceneInfo, Window,
+};
 use crate::spec::*;
 use anechoic_solver::boundary::{SideMethod, extended};
 use anechoic_solver::contact::Contact;
@@ -323,6 +325,14 @@ impl Scene for PipePenetration {
         let down = self.body.height_m + added(&sides.bottom)?;
         let reach = 0.5 * self.pipe.diameter_m + self.pipe.depth * self.pipe.diameter_m;
         Some((2.0 * right.min(down) - reach) / self.material.elastic.elastic().p_speed())
+    }
+
+    fn pictures(&self) -> Vec<OwnPicture> {
+        claims::pictures(self)
+    }
+
+    fn curve(&self, _name: &str, run: &Record) -> Option<Curve> {
+        claims::curve(self, run)
     }
 
     fn claims(&self) -> Vec<SceneClaim> {

@@ -4,7 +4,7 @@
 //! velocity first departs from the slide's by a share of what it departs at most before the echoes.
 
 use super::Mudmat;
-use crate::scene::{Beside, OwnNumber, SceneClaim};
+use crate::scene::{Beside, Curve, OwnNumber, OwnPicture, SceneClaim};
 use anechoic_reference::analytic::elastic::Elastic;
 use anechoic_reference::analytic::impact::{Impact, Slide};
 use anechoic_reference::claim::{Accept, Claim, Evidence};
@@ -168,6 +168,39 @@ fn residual(times: &[f64], own: &[f64], other: &[f64], from: f64) -> Result<f64,
             "the run ends before the echo of the top, {from:.3} s"
         ))
     }
+}
+
+/// Pressure against time.
+pub(super) fn pictures(scene: &Mudmat) -> Vec<OwnPicture> {
+    let mut marks = Vec::new();
+    if let Ok((_, slide)) = slide(scene) {
+        marks.push((slide.top_echo_at_step(), "echo of the top".to_owned()));
+        marks.push((slide.far_echo_at_step(), "echo of the left end".to_owned()));
+    }
+    vec![OwnPicture {
+        name: "pressure",
+        title: "Pressure of the slide on the mudmat",
+        caption: "Force over the exposed height and rho v^2, as the mean over 5 ms. Marked: when echoes are due.",
+        x: ("time", "s"),
+        y: ("p/(rho v^2)", ""),
+        truth: None,
+        marks,
+    }]
+}
+
+/// The pressure of a run as the mean over windows that follow each other.
+pub(super) fn curve(scene: &Mudmat, run: &Record) -> Option<Curve> {
+    const SHOWN: f64 = 0.0025;
+    let (times, p) = pressure(scene, run)?;
+    let rho_v2 = scene.material.elastic.rho_kg_m3 * scene.slide.velocity_m_s.powi(2);
+    let windows = (times.last()? / (2.0 * SHOWN)) as usize;
+    let at = |k: usize| (2 * k + 1) as f64 * SHOWN;
+    let points = (0..windows).filter_map(|k| {
+        let mean = mean_around(&times, &p, at(k), SHOWN);
+        Some((at(k), mean.ok()? / rho_v2))
+    });
+    let (x, y) = points.unzip();
+    Some(Curve { x, y })
 }
 
 /// The claims, for the scene as run.
