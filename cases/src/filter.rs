@@ -21,6 +21,8 @@ const METRICS: &[&str] = &[
     "peak_deviation",
     "arrival_s",
     "order",
+    "plateau",
+    "share",
     "largest_rise",
     "stable",
     "relative_cost",

@@ -152,13 +152,13 @@ fn judge_study(
     references: &References,
 ) -> Result<(Judged, Option<Upshot>), CaseError> {
     Ok(match &study.kind {
-        Kind::Convergence { over } => {
+        Kind::Convergence(grid) => {
             let lost = study.damaged.first().map(|damage| {
                 let name = study.kind.name_of_damage(damage);
                 format!("a level is missing: {name}: {}", damaged(damage))
             });
-            let (judged, convergence) = judge_levels(&study.runs, over, references, lost);
-            (judged, convergence.map(Upshot::Convergence))
+            let (judged, refinement) = judge_levels(&study.runs, grid, references, lost.as_deref());
+            (judged, Some(Upshot::Convergence(refinement)))
         }
         Kind::Sweep(grid) => {
             let (judged, sweep) = judge_points(&study.runs, grid, references);

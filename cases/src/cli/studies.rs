@@ -33,7 +33,9 @@ impl<'a> Study<'a> {
             Command::Compare(_) => commands::plan_compare(&options),
             Command::Ablation(_) => commands::plan_ablation(&options),
             Command::Converge(converge) => {
-                commands::plan_converge(&options, &Over::parse(&converge.over)?)
+                let over = converge.over.iter().map(|text| Over::parse(text));
+                let over: Vec<Over> = over.collect::<Result<_, _>>()?;
+                commands::plan_converge(&options, &over, converge.budget)
             }
             Command::Sweep(sweep) => commands::plan_sweep(&options, &sweep.over),
             Command::Tradeoff(_) => commands::plan_tradeoff(&options),

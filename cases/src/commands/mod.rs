@@ -204,17 +204,17 @@ pub fn ablation(options: &Options) -> Result<Finished, CaseError> {
 ///
 /// # Errors
 /// Whatever is wrong with the request.
-pub fn plan_converge(options: &Options, over: &Over) -> Result<Plan, CaseError> {
-    Plan::converge(options, over)
+pub fn plan_converge(options: &Options, over: &[Over], budget: bool) -> Result<Plan, CaseError> {
+    Plan::converge(options, over, budget)
 }
 
-/// Solves one scene with one method on all levels of a refinement, and judges the orders with which
-/// its errors fall.
+/// Solves one scene with one method on all levels of refinements, and judges the orders with which
+/// its errors fall; with a `budget`, once more for each cause of its errors.
 ///
 /// # Errors
 /// As [`run`].
-pub fn converge(options: &Options, over: &Over) -> Result<Finished, CaseError> {
-    execute(Plan::converge(options, over)?, options)
+pub fn converge(options: &Options, over: &[Over], budget: bool) -> Result<Finished, CaseError> {
+    execute(Plan::converge(options, over, budget)?, options)
 }
 
 /// What `sweep` would do.

@@ -1,6 +1,7 @@
 //! From runs to rows: every metric that applies, against every reference that the scene gives.
 
 mod arrivals;
+mod budget;
 mod certified;
 mod foreign;
 mod goodness;
@@ -16,6 +17,7 @@ mod stability;
 mod subject;
 mod trades;
 
+pub use budget::{BUDGET, CAUSES, ERRORS, budget_label};
 pub use certified::CERTIFIER;
 pub use levels::judge_levels;
 pub use points::judge_points;

@@ -2,7 +2,8 @@
 
 mod tables;
 
-use crate::convergence::Convergence;
+use crate::budget::{self, Budget};
+use crate::convergence::{Convergence, Refinement};
 use crate::export::{summary_csv, summary_json};
 use crate::format;
 use crate::judge::{Tally, verifies};
@@ -147,10 +148,31 @@ fn ranking(study: &Study) -> Markup {
 fn upshot(study: &Study) -> Markup {
     match &study.upshot {
         None => html! {},
-        Some(Upshot::Convergence(it)) => convergence(it),
+        Some(Upshot::Convergence(it)) => refinement(it),
         Some(Upshot::Sweep(it)) => sweep(it),
         Some(Upshot::Tradeoff(it)) => tradeoff(it),
         Some(Upshot::Stability(it)) => stable(it),
+    }
+}
+
+fn refinement(refinement: &Refinement) -> Markup {
+    html! {
+        @for study in &refinement.studies { (convergence(study)) }
+        @if let Some(budget) = &refinement.budget { (shares(budget)) }
+    }
+}
+
+fn shares(budget: &Budget) -> Markup {
+    html! {
+        section {
+            h2 { "Error budget" }
+            p.soft {
+                "What each cause contributes to the errors of " code { (budget.method) } " on the \
+                 scene as it stands, over the true series: distances of runs that differ in one \
+                 thing. Refinement says what a cause still changes, and does not verify."
+            }
+            (tables::texts(&budget::head(budget), &budget::cells(budget), 2))
+        }
     }
 }
 
@@ -163,6 +185,7 @@ fn convergence(convergence: &Convergence) -> Markup {
                  with (least squares, with its 95 % interval), and between neighbours."
             }
             (tables::convergence(convergence))
+            @for note in convergence.plateau_notes() { p { (note) } }
         }
     }
 }
