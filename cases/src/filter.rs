@@ -25,6 +25,8 @@ const METRICS: &[&str] = &[
     "share",
     "largest_rise",
     "stable",
+    "largest_stable_step",
+    "largest_real_part",
     "relative_cost",
     "timed_cpu_s",
     "awake_share",

@@ -140,7 +140,7 @@ mod tests {
             ("grid.h_m=10,ten", "`ten` is no positive number"),
             ("grid.h_m=10,-5", "`-5` is no positive number"),
             ("grid.h_m=10,10.0", "10 stands there twice"),
-            ("grid.hm=10,5", "did you mean grid.h_m?"),
+            ("grid.hm=10,5", "did you mean `grid.h_m`?"),
             ("material.E_Pa=1e7,1e6", "time.dt_s, points.per_cell do"),
         ] {
             let error = Over::parse(text).unwrap_err().to_string();

@@ -15,6 +15,7 @@ use crate::judge::{
 };
 use crate::pictures::{self, Picture, animation};
 use crate::runner::Run;
+use crate::spectrum;
 use crate::store::{save_rows, write_file};
 use crate::sweep::named;
 use crate::timing;
@@ -173,7 +174,8 @@ fn judge_study(
             (judged, Some(Upshot::Tradeoff(tradeoff)))
         }
         Kind::Stability(grid) => {
-            let (judged, stability) = judge_stability(&study.runs, grid);
+            let spectra = spectrum::load(&study.folder)?;
+            let (judged, stability) = judge_stability(&study.runs, grid, &spectra);
             (judged, Some(Upshot::Stability(stability)))
         }
         Kind::Comparison | Kind::Ablation => {

@@ -7,6 +7,15 @@ use serde::{Deserialize, Serialize};
 /// The metric of a run's outcome: 1 where it is stable, 0 where it is not.
 pub const STABLE: &str = "stable";
 
+/// The metric of the largest step, over h/c_p, up to which all runs of a method are stable.
+pub const LARGEST_STEP: &str = "largest_stable_step";
+
+/// The metric of spectra: the largest real part of a small mesh's operator, over c_p/h.
+pub const LARGEST_REAL_PART: &str = "largest_real_part";
+
+/// Real parts below this (c_p/h) are rounding: doubled modes at rest have its root.
+const ROUNDING: f64 = 1e-6;
+
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -100,11 +109,37 @@ pub struct StabilityPart {
     pub points: Vec<StabilityPoint>,
 }
 
+/// The largest step of a method's runs up to which all are stable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LargestStep {
+    /// The method.
+    pub method: String,
+    /// The step over h/c_p, or why there is none.
+    pub value: Result<f64, String>,
+    /// The largest that was tried.
+    pub tried: f64,
+}
+
+/// The largest real part of the operator of a method's small mesh, over c_p/h, or why there is none.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpectrumPoint {
+    /// Name of the extreme in rows.
+    pub label: String,
+    /// One entry a method with a layer.
+    pub entries: Vec<(String, Result<f64, String>)>,
+}
+
 /// A study of stability.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stability {
     /// Its parts.
     pub parts: Vec<StabilityPart>,
+    /// The largest stable step of each method.
+    #[serde(default)]
+    pub largest_steps: Vec<LargestStep>,
+    /// What the spectra of small meshes say.
+    #[serde(default)]
+    pub spectra: Vec<SpectrumPoint>,
 }
 
 impl Stability {
@@ -150,6 +185,59 @@ pub fn cells(stability: &Stability, part: &StabilityPart) -> Vec<Vec<String>> {
     part.points.iter().map(row).collect()
 }
 
+/// Heads of the table of largest steps.
+pub const STEP_HEAD: [&str; 3] = ["method", "largest stable step over h/c_p", "largest tried"];
+
+/// Its lines.
+pub fn step_cells(stability: &Stability) -> Vec<[String; 3]> {
+    let line = |step: &LargestStep| {
+        let value = match &step.value {
+            Ok(value) => format::short(*value),
+            Err(why) => why.clone(),
+        };
+        [step.method.clone(), value, format::short(step.tried)]
+    };
+    stability.largest_steps.iter().map(line).collect()
+}
+
+/// Methods of the spectra, in the order of their first appearance.
+fn layers(stability: &Stability) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for (name, _) in stability.spectra.iter().flat_map(|point| &point.entries) {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// Heads of the table of spectra.
+pub fn spectrum_head(stability: &Stability) -> Vec<String> {
+    let mut head = vec!["extreme".to_owned()];
+    head.extend(layers(stability).into_iter().map(str::to_owned));
+    head
+}
+
+/// Its lines under [`spectrum_head`]: 0 where nothing grows but rounding.
+pub fn spectrum_cells(stability: &Stability) -> Vec<Vec<String>> {
+    let layers = layers(stability);
+    let text = |value: &Result<f64, String>| match value {
+        Ok(value) if value.abs() < ROUNDING => "0".to_owned(),
+        Ok(value) if *value < 0.0 => format!("−{}", format::number(-value)),
+        Ok(value) => format!("+{}", format::number(*value)),
+        Err(why) => why.clone(),
+    };
+    let line = |point: &SpectrumPoint| {
+        let mut line = vec![point.label.clone()];
+        line.extend(layers.iter().map(|method| {
+            let found = point.entries.iter().find(|(name, _)| name == method);
+            found.map_or("–".to_owned(), |(_, value)| text(value))
+        }));
+        line
+    };
+    stability.spectra.iter().map(line).collect()
+}
+
 /// Why runs are not stable: extreme, method, outcome at length.
 pub fn troubles(stability: &Stability) -> Vec<[String; 3]> {
     let points = stability.parts.iter().flat_map(|part| &part.points);
@@ -187,6 +275,30 @@ mod tests {
     }
 
     #[test]
+    fn spectra_tell_growth_from_rounding() {
+        let entries = [
+            ("pml", 0.013),
+            ("damping-layer", -0.002),
+            ("pml-static", 3e-9),
+        ];
+        let stability = Stability {
+            spectra: vec![SpectrumPoint {
+                label: "nu=0.499".into(),
+                entries: entries.map(|(name, x)| (name.to_owned(), Ok(x))).to_vec(),
+            }],
+            ..Stability::default()
+        };
+        assert_eq!(
+            spectrum_head(&stability)[1..],
+            ["pml", "damping-layer", "pml-static"]
+        );
+        assert_eq!(
+            spectrum_cells(&stability)[0][1..],
+            ["+0.0130", "−0.00200", "0"]
+        );
+    }
+
+    #[test]
     fn every_method_has_a_column() {
         let point = |label: &str, method: &str| StabilityPoint {
             label: label.into(),
@@ -197,6 +309,7 @@ mod tests {
                 title: "step".into(),
                 points: vec![point("a", "pml"), point("b", "dashpot")],
             }],
+            ..Stability::default()
         };
         assert_eq!(head(&stability), ["extreme", "pml", "dashpot"]);
         let cells = cells(&stability, &stability.parts[0]);

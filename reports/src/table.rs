@@ -245,10 +245,27 @@ pub fn stability_table(study: &Stability) -> String {
         }
         text += &format!("{}\n{}\n", part.title, finish(&table, ""));
     }
+    text += &plain_table(&stability::STEP_HEAD, &stability::step_cells(study), "\n");
+    if !study.spectra.is_empty() {
+        let head = stability::spectrum_head(study);
+        let note =
+            "largest real part of the operator of a small mesh with the sides, over c_p/h\n\n";
+        text += &plain_table(&head, &stability::spectrum_cells(study), note);
+    }
     for [extreme, method, why] in stability::troubles(study) {
         text += &format!("{method} at {extreme}: {why}\n");
     }
     text
+}
+
+/// A table of texts whose columns but the first are numbers.
+fn plain_table<R: AsRef<[String]>>(head: &[impl AsRef<str>], rows: &[R], note: &str) -> String {
+    let mut table = new_table(&head.iter().map(AsRef::as_ref).collect::<Vec<_>>());
+    align_right(&mut table, &(1..head.len()).collect::<Vec<_>>());
+    for row in rows {
+        table.add_row(row.as_ref());
+    }
+    finish(&table, note)
 }
 
 /// Head of the table of a convergence study.

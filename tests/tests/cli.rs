@@ -391,7 +391,7 @@ fn what_is_no_refinement_is_told_before_anything_is_solved() {
     for (over, part) in [
         ("grid.h_m=4", "two values at least"),
         ("grid.h_m=4,two", "`two` is no positive number"),
-        ("grid.hm=4,2", "did you mean grid.h_m"),
+        ("grid.hm=4,2", "did you mean `grid.h_m`"),
         ("receivers.A.x_m=1,0.5", "refines nothing"),
         ("material.E_Pa=1e6,2e6", "refines nothing"),
         ("points.per_cell=4,5", "--over points.per_cell=5: "),

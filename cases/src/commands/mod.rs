@@ -19,6 +19,7 @@ use crate::over::Over;
 use crate::prepare::{Prepared, Request, Target};
 use crate::resume::{Reuse, Todo, folder, tasks};
 use crate::runner::{Task, run_all};
+use crate::spectrum;
 use crate::store::Store;
 use crate::study::stored::{Found, Study, find_studies};
 use crate::study::{ANIMATION, Kind, Published, publish};
@@ -405,6 +406,9 @@ fn execute_tasks(
             timing::forget(store.folder())?;
         }
         timing::measure(&runs, store.folder(), options.repeats)?;
+    }
+    if let Kind::Stability(grid) = &study.kind {
+        spectrum::measure(&runs, grid, store.folder(), options.jobs)?;
     }
     Finished::new(publish(Study { runs, ..study })?, filter)
 }

@@ -23,7 +23,7 @@ pub use levels::judge_levels;
 pub use points::judge_points;
 pub use rows::rows_unread;
 pub use series::{traces, traces_of};
-pub use stability::judge_stability;
+pub use stability::{RATIO_AXIS, STEP_AXIS, judge_stability};
 pub use trades::judge_trades;
 
 use crate::certified::Certified;

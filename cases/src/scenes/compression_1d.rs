@@ -24,7 +24,6 @@ mod values;
 use crate::checks::Checks;
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
-use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::Probes;
 use anechoic_solver::problem::{BasisKind, Drive, Problem, Scheme, Side};
 use anechoic_solver::wavelet::{Pulse, Wavelet};
@@ -116,6 +115,7 @@ impl Scene for Compression1d {
         Problem {
             target: self.body.target(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
             basis: self.basis,
             scheme: self.time.scheme,
             mass: self.time.mass,
@@ -124,6 +124,7 @@ impl Scene for Compression1d {
             point_mode: self.points.mode,
             transfer: self.points.transfer,
             points_per_cell: self.points.per_cell,
+            face_gap: self.points.face_gap,
             material: self.material.elastic(),
             sides: self.boundary.sides(),
             drives: vec![Drive::SideVelocity {
@@ -179,7 +180,7 @@ impl Scene for Compression1d {
 
     /// Their height: waves run up and down alone.
     fn cell_m(&self) -> f64 {
-        fitted_cell(&self.body.target(), self.grid.h_m)[1]
+        self.grid.cell(&self.body.target())[1]
     }
 
     fn orders(&self, sizes: &[f64]) -> Vec<SceneClaim> {

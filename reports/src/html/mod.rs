@@ -232,6 +232,18 @@ fn stable(stability: &Stability) -> Markup {
                 h3 { (part.title) }
                 (tables::texts(&crate::stability::head(stability), &crate::stability::cells(stability, part), 1))
             }
+            h3 { "Largest stable step" }
+            p.soft { "The largest that was tried up to which all runs are stable." }
+            (tables::texts(&crate::stability::STEP_HEAD, &crate::stability::step_cells(stability), 1))
+            @if !stability.spectra.is_empty() {
+                h3 { "Spectra" }
+                p.soft {
+                    "A second opinion without runs: the largest real part of the operator of a mesh of a \
+                     few cells with the method's sides, over c_p/h. What is positive grows; 0 is within \
+                     rounding."
+                }
+                (tables::texts(&crate::stability::spectrum_head(stability), &crate::stability::spectrum_cells(stability), 1))
+            }
             h3 { "What is not stable, and why" }
             (tables::texts(&["extreme", "method", "outcome"], &troubles(stability), 3))
         }
