@@ -52,6 +52,8 @@ pub enum SpectrumError {
 pub struct Spectrum {
     /// Largest real part of the semi-discrete operator over c_p/h.
     pub growth: f64,
+    /// How far rounding moves it: much for multiple eigenvalues without as many modes.
+    pub rounding: f64,
     /// Unknowns of its state.
     pub unknowns: usize,
 }
@@ -96,16 +98,23 @@ pub fn spectrum(problem: &Problem<2>) -> Result<Spectrum, SpectrumError> {
     let columns: Vec<Vec<f64>> = (0..n)
         .map(|unknown| probe.column(unknown))
         .collect::<Result<_, _>>()?;
-    let all = eigenvalues(n, |i, j| columns[j][i])?;
-    // dt = h/c_p: the real part of 2 (z - 1)/(z + 1) is that over c_p/h
+    // the transposed matrix has the same eigenvalues and other rounding
+    let growth = largest_real_part(&eigenvalues(n, |i, j| columns[j][i])?);
+    let again = largest_real_part(&eigenvalues(n, |i, j| columns[i][j])?);
+    Ok(Spectrum {
+        growth,
+        rounding: (growth - again).abs(),
+        unknowns: n,
+    })
+}
+
+/// Largest real part over c_p/h of the semi-discrete operator whose step of h/c_p has these eigenvalues.
+fn largest_real_part(all: &[[f64; 2]]) -> f64 {
     let real = |[re, im]: &[f64; 2]| {
         let (size, far) = (re * re + im * im, (re + 1.0).powi(2) + im * im);
         2.0 * (size - 1.0) / far
     };
-    Ok(Spectrum {
-        growth: all.iter().map(real).fold(f64::NEG_INFINITY, f64::max),
-        unknowns: n,
-    })
+    all.iter().map(real).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Name of the file in a study's folder.

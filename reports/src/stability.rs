@@ -14,7 +14,9 @@ pub const LARGEST_STEP: &str = "largest_stable_step";
 pub const LARGEST_REAL_PART: &str = "largest_real_part";
 
 /// Real parts below this (c_p/h) are rounding: doubled modes at rest have its root.
-const ROUNDING: f64 = 1e-6;
+const SMALL: f64 = 1e-6;
+/// A real part that rounding moves by more than this share of itself is rounding.
+const SURE: f64 = 0.1;
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -120,13 +122,22 @@ pub struct LargestStep {
     pub tried: f64,
 }
 
-/// The largest real part of the operator of a method's small mesh, over c_p/h, or why there is none.
+/// What the spectrum of a small mesh says.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Opinion {
+    /// Largest real part of the operator over c_p/h.
+    pub growth: f64,
+    /// How far rounding moves it.
+    pub rounding: f64,
+}
+
+/// The opinions on all methods with a layer at one extreme.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpectrumPoint {
     /// Name of the extreme in rows.
     pub label: String,
-    /// One entry a method with a layer.
-    pub entries: Vec<(String, Result<f64, String>)>,
+    /// One entry a method: the opinion, or why there is none.
+    pub entries: Vec<(String, Result<Opinion, String>)>,
 }
 
 /// A study of stability.
@@ -153,6 +164,13 @@ impl Stability {
             }
         }
         names
+    }
+}
+
+impl Opinion {
+    /// Is it rounding alone?
+    pub fn is_rounding(&self) -> bool {
+        self.growth.abs() < SMALL || self.rounding > SURE * self.growth.abs()
     }
 }
 
@@ -221,10 +239,10 @@ pub fn spectrum_head(stability: &Stability) -> Vec<String> {
 /// Its lines under [`spectrum_head`]: 0 where nothing grows but rounding.
 pub fn spectrum_cells(stability: &Stability) -> Vec<Vec<String>> {
     let layers = layers(stability);
-    let text = |value: &Result<f64, String>| match value {
-        Ok(value) if value.abs() < ROUNDING => "0".to_owned(),
-        Ok(value) if *value < 0.0 => format!("−{}", format::number(-value)),
-        Ok(value) => format!("+{}", format::number(*value)),
+    let text = |value: &Result<Opinion, String>| match value {
+        Ok(opinion) if opinion.is_rounding() => "0".to_owned(),
+        Ok(opinion) if opinion.growth < 0.0 => format!("−{}", format::number(-opinion.growth)),
+        Ok(opinion) => format!("+{}", format::number(opinion.growth)),
         Err(why) => why.clone(),
     };
     let line = |point: &SpectrumPoint| {
@@ -276,25 +294,27 @@ mod tests {
 
     #[test]
     fn spectra_tell_growth_from_rounding() {
+        let opinion = |growth, rounding| Ok(Opinion { growth, rounding });
         let entries = [
-            ("pml", 0.013),
-            ("damping-layer", -0.002),
-            ("pml-static", 3e-9),
+            ("pml", opinion(0.013, 1e-9)),
+            ("damping-layer", opinion(-0.25, 0.0)),
+            ("a", opinion(3e-9, 0.0)),
+            ("b", opinion(7e-4, 2e-4)),
         ];
         let stability = Stability {
             spectra: vec![SpectrumPoint {
                 label: "nu=0.499".into(),
-                entries: entries.map(|(name, x)| (name.to_owned(), Ok(x))).to_vec(),
+                entries: entries.map(|(name, x)| (name.to_owned(), x)).to_vec(),
             }],
             ..Stability::default()
         };
         assert_eq!(
             spectrum_head(&stability)[1..],
-            ["pml", "damping-layer", "pml-static"]
+            ["pml", "damping-layer", "a", "b"]
         );
         assert_eq!(
             spectrum_cells(&stability)[0][1..],
-            ["+0.0130", "−0.00200", "0"]
+            ["+0.0130", "−0.250", "0", "0"]
         );
     }
 

@@ -165,7 +165,7 @@ fn refinement_table(refinement: &Refinement) -> String {
 fn budget_table(own: &Budget) -> String {
     let head = budget::head(own);
     let mut table = new_table(&head.iter().map(String::as_str).collect::<Vec<_>>());
-    align_right(&mut table, &(2..head.len() - 2).collect::<Vec<_>>());
+    align_right(&mut table, &(4..head.len()).collect::<Vec<_>>());
     for line in budget::cells(own) {
         table.add_row(line);
     }

@@ -11,8 +11,8 @@ use anechoic_reports::judge::{Measurement, RUN, cost_measurements, judge};
 use anechoic_reports::norms::Unloaded;
 use anechoic_reports::row::Row;
 use anechoic_reports::stability::{
-    LARGEST_REAL_PART, LARGEST_STEP, LargestStep, Outcome, STABLE, SpectrumPoint, Stability,
-    StabilityPart, StabilityPoint, rate,
+    LARGEST_REAL_PART, LARGEST_STEP, LargestStep, Opinion, Outcome, STABLE, SpectrumPoint,
+    Stability, StabilityPart, StabilityPoint, rate,
 };
 use anechoic_solver::boundary::find;
 use anechoic_solver::problem::{PointMode, Problem, Scheme, Transfer};
@@ -87,10 +87,11 @@ fn opinions(point: &Point, runs: &[Run], spectra: &Spectra) -> SpectrumPoint {
     let own = point.pick(runs).0.into_iter();
     let entry = |run: &Run| {
         let found = spectra.get(&timing::key(run))?.clone();
-        Some((
-            run.manifest.method.clone(),
-            found.map(|spectrum| spectrum.growth),
-        ))
+        let opinion = found.map(|spectrum| Opinion {
+            growth: spectrum.growth,
+            rounding: spectrum.rounding,
+        });
+        Some((run.manifest.method.clone(), opinion))
     };
     SpectrumPoint {
         label: point.label.clone(),
@@ -120,15 +121,14 @@ fn second_opinions(stability: &Stability) -> Vec<Measurement> {
         ));
     }
     for point in &stability.spectra {
-        for (method, value) in &point.entries {
-            let place = format!("{RUN}@{}", point.label);
-            all.push(number(
-                method,
-                LARGEST_REAL_PART,
-                place,
-                value.clone(),
-                "c_p/h",
-            ));
+        for (method, opinion) in &point.entries {
+            let parts: [(&str, fn(&Opinion) -> f64); 2] =
+                [("", |o| o.growth), (":rounding", |o| o.rounding)];
+            for (name, value) in parts {
+                let place = format!("{RUN}{name}@{}", point.label);
+                let value = opinion.as_ref().map(value).map_err(String::clone);
+                all.push(number(method, LARGEST_REAL_PART, place, value, "c_p/h"));
+            }
         }
     }
     all

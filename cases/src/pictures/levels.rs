@@ -71,7 +71,7 @@ fn picture(
     .draw()?;
     Ok(Some(Picture {
         name: name.into(),
-        title: title.into(),
+        title: format!("{title} over {}", convergence.over),
         caption: format!(
             "`{metric}` of {} at the receivers, on logarithmic axes; the triangle has the slope of a scheme of second order.",
             convergence.method

@@ -42,7 +42,7 @@ fn page(study: &Study) -> Markup {
                     (verdicts(study))
                     (ranking(study))
                     (upshot(study))
-                    (figures(&study.figures))
+                    (figures(&study.figures, &study.command))
                     (notes(&study.notes))
                     (ledger(study))
                     (downloads(study))
@@ -64,7 +64,7 @@ fn header(study: &Study) -> Markup {
                 li { (study.runs.len()) " runs" }
             }
             @if !study.summary.is_empty() { p { (study.summary) } }
-            p { "Made by " code { (study.command) } }
+            p.command { "Made by " code { (study.command) } }
         }
     }
 }
@@ -171,7 +171,7 @@ fn shares(budget: &Budget) -> Markup {
                  scene as it stands, over the true series: distances of runs that differ in one \
                  thing. Refinement says what a cause still changes, and does not verify."
             }
-            (tables::texts(&budget::head(budget), &budget::cells(budget), 2))
+            (tables::texts(&budget::head(budget), &budget::cells(budget), 4))
         }
     }
 }
@@ -266,12 +266,12 @@ fn sweep(sweep: &Sweep) -> Markup {
     }
 }
 
-fn figures(figures: &[Figure]) -> Markup {
+fn figures(figures: &[Figure], command: &str) -> Markup {
     html! {
         @if !figures.is_empty() {
             section {
                 h2 { "Pictures" }
-                @for figure in figures { (picture(figure)) }
+                @for figure in figures { (picture(figure, command)) }
             }
         }
     }
@@ -288,7 +288,8 @@ fn notes(notes: &[String]) -> Markup {
     }
 }
 
-fn picture(figure: &Figure) -> Markup {
+/// A picture with its words and the command that makes it, which a click selects as a whole.
+fn picture(figure: &Figure, command: &str) -> Markup {
     html! {
         figure {
             @match &figure.image {
@@ -300,7 +301,10 @@ fn picture(figure: &Figure) -> Markup {
                         src={ "data:image/png;base64," (STANDARD.encode(bytes)) };
                 },
             }
-            figcaption { strong { (figure.title) "." } " " (figure.caption) }
+            figcaption {
+                strong { (figure.title) "." } " " (figure.caption)
+                div.command { "Made by " code { (command) } }
+            }
         }
     }
 }

@@ -48,11 +48,25 @@ fn the_true_layers_tangent_is_symmetric_to_rounding() {
 /// M dv = -C v - Kd u - sum V B' P(B u, phi) - T_1 theta_1 - T_2 theta_2,
 /// dtheta_1 = u - alpha theta_1, dtheta_2 = theta_1 - alpha theta_2 (none of these where alpha = 0).
 fn growth_of_the_true_layer(nu: f64, alpha: f64) -> f64 {
-    let mut problem = tiny(pml().with("alpha_per_s", alpha));
+    growth_of_layers(nu, alpha, false)
+}
+
+/// The same, or with rollers left and right instead of the layer.
+fn growth_of_layers(nu: f64, alpha: f64, rollers: bool) -> f64 {
+    let on = |problem: Problem<2>| match rollers {
+        true => between_rollers(problem),
+        false => problem,
+    };
+    let mut problem = on(tiny(pml().with("alpha_per_s", alpha)));
     problem.material.poissons_ratio = nu;
     let (model, free, _) = probed(&problem);
     let own = model.regions.last().unwrap().range.clone();
-    let geometry = [[0.0, 60.0], [-40.0, 0.0]];
+    let x = if rollers {
+        [f64::MIN, f64::MAX]
+    } else {
+        [0.0, 60.0]
+    };
+    let geometry = [x, [-40.0, 0.0]];
     let layer = (60.0, REFLECTION, 20.0);
     let material = &problem.material;
     let twin = Twin::new(
@@ -65,7 +79,7 @@ fn growth_of_the_true_layer(nu: f64, alpha: f64) -> f64 {
     );
     let (n, q) = (free.len(), own.len());
     // without memory: the same mesh with plain elastic stress, and the twin's at phi = 0
-    let mut plain = tiny(SideMethod::new("extended"));
+    let mut plain = on(tiny(SideMethod::new("extended")));
     plain.material = *material;
     let (_, plain_free, k) = probed(&plain);
     assert_eq!(plain_free, free);
@@ -137,6 +151,12 @@ fn growth_of_the_true_layer(nu: f64, alpha: f64) -> f64 {
     largest_real_part(&a) / (problem.material.p_speed() / 20.0)
 }
 
+/// With rollers left and right.
+fn between_rollers(mut problem: Problem<2>) -> Problem<2> {
+    problem.sides[0] = ["roller", "roller"].map(SideMethod::new);
+    problem
+}
+
 #[test]
 fn the_true_layers_spectrum_does_not_grow() {
     for nu in [0.0, 0.25, 0.4, 0.45, 0.49] {
@@ -158,7 +178,10 @@ fn the_true_layers_spectrum_does_not_grow() {
 
 /// The same by the steps of the solver itself, as `stability` prints it.
 fn growth_by_steps(layer: SideMethod, nu: f64) -> f64 {
-    let mut problem = tiny(layer);
+    growth_of_steps(tiny(layer), nu)
+}
+
+fn growth_of_steps(mut problem: Problem<2>, nu: f64) -> f64 {
     problem.material.poissons_ratio = nu;
     problem.dt = 20.0 / problem.material.p_speed();
     (problem.solver, problem.rel_tol) = (SolverKind::Direct, 1e-13);
@@ -198,6 +221,19 @@ fn the_steps_of_the_solver_have_the_spectrum_of_the_equations() {
     // the published equations are ill-posed beyond 0.396
     let stretched = || SideMethod::new("pml-stretched").with("rayleigh_per_s", 0.0);
     assert!(growth_by_steps(stretched(), 0.49) > 1e-2);
+}
+
+#[test]
+fn one_layer_between_rollers_grows_a_little_in_material_that_does_not_bulge() {
+    for nu in [0.0, 0.25] {
+        let equations = growth_of_layers(nu, 0.0, true);
+        let steps = growth_of_steps(between_rollers(tiny(pml())), nu);
+        println!("nu = {nu}: {equations:.3e} by the equations, {steps:.3e} by steps");
+        match nu {
+            0.0 => assert!(equations > 1e-3 && (steps / equations - 1.0).abs() < 1e-6),
+            _ => assert!(equations < 1e-10 && steps < 1e-6),
+        }
+    }
 }
 
 #[test]
