@@ -400,6 +400,12 @@ fn execute_tasks(
     study.announce()?;
     // One of earlier runs would not show these; that there is none is no failure.
     let _ = std::fs::remove_file(store.folder().join(ANIMATION));
+    // whatever was timed before is no time of what is solved again
+    let again = tasks.iter().filter(|task| matches!(task, Task::Solve(_)));
+    let again: Vec<String> = again
+        .map(|task| task.folder().display().to_string())
+        .collect();
+    timing::forget_some(store.folder(), &again)?;
     let runs = run_all(tasks, options.sampling, options.jobs, store)?;
     if options.repeats > 0 {
         if options.reuse == Reuse::Nothing {

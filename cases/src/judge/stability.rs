@@ -122,11 +122,12 @@ fn second_opinions(stability: &Stability) -> Vec<Measurement> {
     }
     for point in &stability.spectra {
         for (method, opinion) in &point.entries {
-            let parts: [(&str, fn(&Opinion) -> f64); 2] =
-                [("", |o| o.growth), (":rounding", |o| o.rounding)];
-            for (name, value) in parts {
+            let numbers = match opinion {
+                Ok(opinion) => [Ok(opinion.growth), Ok(opinion.rounding)],
+                Err(why) => [Err(why.clone()), Err(why.clone())],
+            };
+            for (name, value) in ["", ":rounding"].into_iter().zip(numbers) {
                 let place = format!("{RUN}{name}@{}", point.label);
-                let value = opinion.as_ref().map(value).map_err(String::clone);
                 all.push(number(method, LARGEST_REAL_PART, place, value, "c_p/h"));
             }
         }

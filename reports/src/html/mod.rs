@@ -244,8 +244,11 @@ fn stable(stability: &Stability) -> Markup {
                 }
                 (tables::texts(&crate::stability::spectrum_head(stability), &crate::stability::spectrum_cells(stability), 1))
             }
-            h3 { "What is not stable, and why" }
-            (tables::texts(&["extreme", "method", "outcome"], &troubles(stability), 3))
+            @let unstable = troubles(stability);
+            @if !unstable.is_empty() {
+                h3 { "What is not stable, and why" }
+                (tables::texts(&["extreme", "method", "outcome"], &unstable, 3))
+            }
         }
     }
 }
