@@ -16,7 +16,7 @@ const CELLS_AHEAD: f64 = 10.0;
 pub fn awake_share(problem: &Problem<2>) -> Result<f64, SolverError> {
     let (all, h) = (
         material_box(problem)?,
-        fitted_cell(&problem.target, problem.cell_size),
+        fitted_cell(&problem.target, problem.edges()),
     );
     let count = |axis: usize| ((all.upper[axis] - all.lower[axis]) / h[axis]).round() as usize;
     let ahead = CELLS_AHEAD * h[0].max(h[1]);

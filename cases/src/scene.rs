@@ -37,6 +37,14 @@ pub trait Scene: Debug + Send + Sync {
     /// The reason why there is no reference for this scene as it stands.
     fn references(&self, times: &[f64]) -> Result<Vec<Reference>, String>;
 
+    /// The same by a finer quadrature, where they have one: what that changes is their own error.
+    ///
+    /// # Errors
+    /// As [`Scene::references`].
+    fn finer_references(&self, _times: &[f64]) -> Result<Option<Vec<Reference>>, String> {
+        Ok(None)
+    }
+
     /// The scene with sides so far away that nothing comes back, where what is true has to be solved
     /// for; see [`crate::certified`].
     fn extended(&self) -> Option<Problem<2>> {

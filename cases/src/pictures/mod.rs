@@ -82,7 +82,7 @@ pub fn missing(name: &str, reason: &dyn std::fmt::Display) -> String {
 /// The pictures of what the runs of a study make together.
 pub fn draw_upshot(upshot: &Upshot) -> Gallery {
     match upshot {
-        Upshot::Convergence(convergence) => levels::draw_convergence(convergence),
+        Upshot::Convergence(refinement) => levels::draw_convergence(refinement),
         Upshot::Sweep(sweep) => points::draw_sweep(sweep),
         Upshot::Tradeoff(tradeoff) => trades::draw_tradeoff(tradeoff),
         Upshot::Stability(stability) => stability::draw_stability(stability),

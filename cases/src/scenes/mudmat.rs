@@ -29,7 +29,6 @@ use crate::spec::*;
 use anechoic_solver::contact::Contact;
 use anechoic_solver::contact::body::{Motion, RigidBody};
 use anechoic_solver::contact::shape::Shape;
-use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::material::herschel_bulkley::RateStrength;
 use anechoic_solver::material::strength::Strength;
 use anechoic_solver::probe::Probes;
@@ -247,7 +246,7 @@ impl Mudmat {
 
     /// Shortest edge of a cell (m).
     fn h(&self) -> f64 {
-        let [x, y] = fitted_cell(&self.slab(), self.grid.h_m);
+        let [x, y] = self.grid.cell(&self.slab());
         x.min(y)
     }
 
@@ -302,6 +301,8 @@ impl Scene for Mudmat {
         Problem {
             target: self.slab(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
+            face_gap: self.points.face_gap,
             basis: self.basis,
             scheme: self.time.scheme,
             mass: Default::default(),

@@ -29,7 +29,6 @@ use anechoic_solver::boundary::{SideMethod, extended};
 use anechoic_solver::contact::Contact;
 use anechoic_solver::contact::body::{Motion, RigidBody};
 use anechoic_solver::contact::shape::Shape;
-use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::material::strength::Strength;
 use anechoic_solver::probe::Probes;
 use anechoic_solver::problem::{
@@ -201,7 +200,7 @@ impl PipePenetration {
 
     /// Shortest edge of a cell (m).
     fn h(&self) -> f64 {
-        let [x, y] = fitted_cell(&self.soil(), self.grid.h_m);
+        let [x, y] = self.grid.cell(&self.soil());
         x.min(y)
     }
 
@@ -243,6 +242,8 @@ impl Scene for PipePenetration {
         Problem {
             target: self.soil(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
+            face_gap: self.points.face_gap,
             basis: self.basis,
             scheme: self.time.scheme,
             mass: Default::default(),
