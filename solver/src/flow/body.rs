@@ -1,8 +1,10 @@
 //! The points of one region: a basis, a law, columns, and the passes over strips and blocks.
 
 use super::columns::{Columns, Part, Sorting};
+use super::fbar::{Cells, give_divergences, take_means};
 use super::gather::Gather;
 use super::lanes::{PackMotion, Packed, Unpack};
+use super::law_blocks::{Advance, PackStress};
 use super::scatter::{Run, Scatter};
 use super::stencils::Stencils;
 use super::strips::{Strips, Sums, each};
@@ -12,7 +14,7 @@ use crate::grid::Grid;
 use crate::material::law::Law;
 use crate::points::{BLOCK, blocks};
 use crate::tensor::{Matrix, Vector, add_scaled, identity, inverse, zero};
-use pulp::{Arch, NullaryFnOnce};
+use pulp::Arch;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Steps after which points are sorted again at the latest: sorting costs about as much as a step.
@@ -25,6 +27,8 @@ pub(super) struct Body<B, L: Law<D>, const D: usize> {
     columns: Columns<L::State, D>,
     sorting: Sorting<L::State, D>,
     strips: Strips,
+    /// Where cells' divergences replace the points'.
+    cells: Option<Cells>,
     /// Steps since the points were sorted.
     age: usize,
     /// Has a point left its strip?
@@ -68,6 +72,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
             None => vec![L::State::default(); n],
         };
         let affine = start.carry == Carry::Affine;
+        let cells = start.mean_volumes.then(|| Cells::new(&grid));
         let mut body = Body {
             strips: Strips::new(&grid, B::WIDTH),
             fixed: Fixed {
@@ -88,6 +93,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
                 state,
             },
             sorting: Sorting::default(),
+            cells,
             age: 0,
             strayed: AtomicBool::new(false),
         };
@@ -145,6 +151,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
                 gradient,
                 packed: &mut packed,
             });
+            let places = &columns.place[block.clone()];
             if out.others.is_some() {
                 fixed.arch.dispatch(PackStress {
                     law: &fixed.law,
@@ -152,6 +159,9 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
                     state: &columns.state[block.clone()],
                     packed: &mut packed,
                 });
+            }
+            if let Some(cells) = &mut out.cells {
+                take_means(&fixed.grid, places, &mut packed, out.first, cells);
             }
             macro_rules! pass {
                 ($width:literal) => {
@@ -181,6 +191,13 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
         nodes: Nodes<'_, D>,
     ) -> Result<(), Fault<D>> {
         let (fixed, strips, strayed) = (&self.fixed, &self.strips, &self.strayed);
+        let cells = match &mut self.cells {
+            Some(cells) if MOVE => {
+                cells.diverge(&fixed.grid, nodes.v);
+                Some(&cells.values[..])
+            }
+            _ => None,
+        };
         let work = |strip: usize, mut part: Part<'_, L::State, D>| {
             let leash = strips.leash(strip, B::WIDTH);
             let mut stencils = Stencils::new();
@@ -189,7 +206,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
                 let n = part.place.len().min(BLOCK);
                 let (mut block, rest) = part.split_at(n);
                 fixed.fill(&mut stencils, block.place)?;
-                fixed.gather_block::<KICK, MOVE>(&stencils, nodes, &mut block)?;
+                fixed.gather_block::<KICK, MOVE>(&stencils, nodes, cells, &mut block)?;
                 if MOVE {
                     let (axis, grid) = (D - 1, &fixed.grid);
                     for x in block.place.iter() {
@@ -235,6 +252,7 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
         &self,
         stencils: &Stencils<D>,
         nodes: Nodes<'_, D>,
+        cells: Option<&[f64]>,
         block: &mut Part<'_, L::State, D>,
     ) -> Result<(), Fault<D>> {
         let n = block.place.len();
@@ -254,6 +272,9 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
         match B::WIDTH {
             2 => gather!(2),
             _ => gather!(3),
+        }
+        if let Some(cells) = cells {
+            give_divergences(&self.grid, block.place, &mut packed, cells);
         }
         macro_rules! unpack {
             ($affine:literal, $pic:expr) => {
@@ -307,7 +328,17 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
         if *self.strayed.get_mut() || self.age >= SORT_EVERY {
             self.sort()?;
         }
-        self.scatter(Sums::all(out))
+        let mut cells = self.cells.take();
+        let sums = cells.as_mut().map(|cells| {
+            cells.values.fill(0.0);
+            &mut cells.values[..]
+        });
+        let done = self.scatter(Sums::all(out, sums));
+        if let Some(cells) = &cells {
+            cells.force(&self.fixed.grid, &mut out.force);
+        }
+        self.cells = cells;
+        done
     }
 
     fn to_points(&mut self, v: &[Vector<D>], a: &[Vector<D>], dt: f64) -> Result<(), Fault<D>> {
@@ -323,6 +354,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
             first: 0,
             momentum: out,
             others: None,
+            cells: None,
         })
     }
 
@@ -381,58 +413,5 @@ fn unsound<const D: usize>(places: &[Vector<D>], sound: impl Fn(usize) -> bool) 
     Fault::NonFinite {
         field: "motion",
         place: places[first.unwrap_or(0)],
-    }
-}
-
-/// Packs the stresses of a block.
-struct PackStress<'a, L: Law<D>, const D: usize> {
-    law: &'a L,
-    /// Volume of a point at the start (m3).
-    volume: f64,
-    state: &'a [L::State],
-    packed: &'a mut [Packed<D>; BLOCK],
-}
-
-impl<L: Law<D>, const D: usize> NullaryFnOnce for PackStress<'_, L, D> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        for (packed, state) in self.packed.iter_mut().zip(self.state) {
-            let stress = self.law.stress(state);
-            for d in 0..D {
-                for i in 0..D {
-                    packed.columns[d][1][i] = -self.volume * stress[i][d];
-                }
-            }
-        }
-    }
-}
-
-/// A step of the law for a block; false when an increment has no positive determinant or a state is
-/// not finite.
-struct Advance<'a, L: Law<D>, const D: usize> {
-    law: &'a L,
-    packed: &'a [Packed<D>],
-    dt: f64,
-    state: &'a mut [L::State],
-}
-
-impl<L: Law<D>, const D: usize> NullaryFnOnce for Advance<'_, L, D> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn call(self) -> bool {
-        let mut sound = true;
-        for (packed, state) in self.packed.iter().zip(self.state) {
-            let l = packed.gradient();
-            let (determinant, _) = inverse(&add_scaled(&identity(), self.dt, &l));
-            sound &= determinant > 0.0;
-            self.law.advance(&l, self.dt, state);
-            for x in state.as_ref() {
-                sound &= x.is_finite();
-            }
-        }
-        sound
     }
 }

@@ -23,11 +23,14 @@
 
 mod body;
 mod columns;
+mod fbar;
 mod gather;
 mod lanes;
+mod law_blocks;
 mod scatter;
 mod stencils;
 mod strips;
+pub mod surface;
 #[cfg(test)]
 mod tests;
 
@@ -242,6 +245,9 @@ pub struct Start<const D: usize> {
     pub density: f64,
     /// How points carry the motion.
     pub carry: Carry,
+    /// Replace the points' divergences by their cells' (F-bar), against locking of what hardly changes
+    /// its volume?
+    pub mean_volumes: bool,
     /// Share the work with the threads of the pool that the passes are called in?
     pub shared: bool,
 }
