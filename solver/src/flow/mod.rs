@@ -24,6 +24,7 @@
 mod body;
 mod columns;
 mod fbar;
+mod fixed;
 mod gather;
 mod lanes;
 mod law_blocks;
