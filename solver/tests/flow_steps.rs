@@ -1,4 +1,5 @@
-//! Explicit steps allocate nothing once the points have been sorted twice, with one thread and two.
+//! Memory of explicit steps: points take what they say, and steps allocate nothing, with one thread and
+//! two.
 
 use allocation_counter::measure;
 use anechoic_solver::flow::surface::Surface;
@@ -13,14 +14,14 @@ const ELASTIC: Elastic = Elastic {
     density: 650.0,
 };
 
-/// A block of 30 x 30 cells in the middle of a grid, drifting.
-fn block(shared: bool) -> (Grid<2>, Box<dyn Flow<2>>) {
+/// A block of 30 cells by `rows` in the middle of a grid, drifting.
+fn block(rows: usize, carry: Carry, shared: bool) -> (Grid<2>, Box<dyn Flow<2>>) {
     let grid = Grid {
         origin: [0.0; 2],
         h: [1.0; 2],
         cells: [50, 50],
     };
-    let places: Vec<[f64; 2]> = (0..3600)
+    let places: Vec<[f64; 2]> = (0..120 * rows)
         .map(|k| [10.25 + 0.5 * (k % 60) as f64, 10.25 + 0.5 * (k / 60) as f64])
         .collect();
     let start = Start {
@@ -30,7 +31,7 @@ fn block(shared: bool) -> (Grid<2>, Box<dyn Flow<2>>) {
         density: ELASTIC.density,
         basis: BasisKind::Gimp,
         per_axis: 2,
-        carry: Carry::Affine,
+        carry,
         mean_volumes: true,
         grid: grid.clone(),
         places,
@@ -73,8 +74,24 @@ fn run(flow: &mut dyn Flow<2>, grid: &Grid<2>, steps: &[usize]) -> Vec<u64> {
 }
 
 #[test]
+fn points_take_what_they_say() {
+    // place, velocity, a spare of either; stress and gradient twice; two keys
+    for (carry, bytes) in [(Carry::Flip { pic: 0.0 }, 104), (Carry::Affine, 168)] {
+        let held = |rows: usize| {
+            let mut kept = None;
+            let memory = measure(|| kept = Some(block(rows, carry, false).1));
+            let says = kept.map(|flow| flow.bytes_per_point());
+            (memory.bytes_current, says)
+        };
+        let ((less, _), (more, says)) = (held(10), held(30));
+        assert_eq!(says, Some(bytes));
+        assert_eq!(more - less, 120 * 20 * bytes as i64);
+    }
+}
+
+#[test]
 fn steps_allocate_nothing() {
-    let (grid, mut flow) = block(false);
+    let (grid, mut flow) = block(30, Carry::Affine, false);
     let before = flow.total_momentum();
     // over these steps the block moves by several cells and is sorted many times
     let counts = run(flow.as_mut(), &grid, &[2, 100]);
@@ -89,7 +106,7 @@ fn steps_of_two_threads_allocate_nothing() {
         .num_threads(2)
         .build()
         .expect("two threads");
-    let (grid, mut flow) = block(true);
+    let (grid, mut flow) = block(30, Carry::Affine, true);
     let counts = pool.install(|| run(flow.as_mut(), &grid, &[40, 100]));
     assert_eq!(counts[1], 0);
 }

@@ -162,7 +162,7 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
             Carry::Flip { pic } => unpack!(false, pic),
         };
         if !finite {
-            return Err(unsound(block.place, |p| {
+            return Err(unsound("velocity", block.place, |p| {
                 block.velocity[p].iter().all(|v| v.is_finite())
             }));
         }
@@ -195,17 +195,21 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
                 return Err(Fault::Inverted { place, determinant });
             }
         }
-        Err(unsound(block.place, |p| {
+        Err(unsound("stress", block.place, |p| {
             block.state[p].as_ref().iter().all(|x| x.is_finite())
         }))
     }
 }
 
 /// The failure of the first point of a block whose field is not `sound`.
-fn unsound<const D: usize>(places: &[Vector<D>], sound: impl Fn(usize) -> bool) -> Fault<D> {
+fn unsound<const D: usize>(
+    field: &'static str,
+    places: &[Vector<D>],
+    sound: impl Fn(usize) -> bool,
+) -> Fault<D> {
     let first = (0..places.len()).find(|&p| !sound(p));
     Fault::NonFinite {
-        field: "motion",
+        field,
         place: places[first.unwrap_or(0)],
     }
 }

@@ -225,10 +225,10 @@ pub trait Flow<const D: usize>: Send {
     fn bytes_per_point(&self) -> usize;
 }
 
-/// A region as it starts.
+/// A region as it starts. The columns are as long as `places`.
 #[derive(Clone, Debug)]
 pub struct Start<const D: usize> {
-    /// The background grid.
+    /// The background grid, with at least as many nodes along each axis as a point sees.
     pub grid: Grid<D>,
     /// The basis.
     pub basis: BasisKind,
