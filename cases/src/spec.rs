@@ -103,6 +103,18 @@ pub struct FlowSpec {
     pub update: StressUpdate,
     /// Share of the nodes' velocity that points take over in a step (`flip` alone).
     pub pic_share: f64,
+    /// Whose change of volume the stress follows.
+    pub volume: Volume,
+}
+
+/// Whose change of volume the stress follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Volume {
+    /// Each point's own: locks where the volume hardly changes.
+    Point,
+    /// That of the cell (F-bar).
+    Cell,
 }
 
 /// Fields of explicit steps of moving points.
@@ -116,6 +128,11 @@ pub const FLOW: &[Field] = &[
         "flow.pic_share",
         Kind::Number(Range::within(0.0, 1.0)),
         "share of the nodes' velocity that points take over in a step (flip alone)",
+    ),
+    Field::new(
+        "flow.volume",
+        Kind::Word(&["cell", "point"]),
+        "whose change of volume the stress follows: the cell's (F-bar), or each point's, which locks",
     ),
 ];
 

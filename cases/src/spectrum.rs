@@ -181,7 +181,7 @@ impl Probe {
     fn new(problem: &Problem<2>) -> Result<Self, SpectrumError> {
         let mut model = setup::model(problem)?;
         let nodes = model.grid.node_count();
-        model.begin_step([0.0, problem.dt], first(problem.dt));
+        model.begin_step([0.0, problem.dt], first(problem.dt))?;
         let mut moved = vec![[1.0; 2]; nodes];
         model.impose(&mut moved);
         let active = &model.nodes.active;
@@ -248,7 +248,7 @@ impl Probe {
     /// Displaces the nodes, which then rest, without a trace in the memory of layers.
     fn displace(&mut self, increment: &[[f64; 2]]) -> Result<(), SolverError> {
         let rest = vec![[0.0; 2]; increment.len()];
-        self.model.begin_step([0.0, self.dt], first(self.dt));
+        self.model.begin_step([0.0, self.dt], first(self.dt))?;
         self.model.commit(&Motion {
             increment,
             v: &rest,

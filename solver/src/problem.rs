@@ -230,6 +230,9 @@ pub struct FlowSetup<const D: usize> {
     pub velocity: [f64; D],
     /// Rigid bodies.
     pub intruders: Vec<Intruder>,
+    /// Take the divergence of the velocity from cells instead of points (F-bar), against locking of what
+    /// hardly changes its volume?
+    pub mean_volumes: bool,
     /// Share the work of a step with the threads of the pool that the run is in?
     pub shared: bool,
     /// Empty space around the material (m): `room[axis][0]` below, `room[axis][1]` above.
@@ -246,6 +249,7 @@ impl<const D: usize> Default for FlowSetup<D> {
             k0: None,
             velocity: [0.0; D],
             intruders: Vec::new(),
+            mean_volumes: false,
             shared: false,
             room: [[0.0; 2]; D],
         }

@@ -316,6 +316,7 @@ impl Scene for Mudmat {
                 strength: self.strength(),
                 update: self.flow.update,
                 pic_share: self.flow.pic_share,
+                mean_volumes: self.flow.volume == Volume::Cell,
                 gravity: self.slide.gravity_m_s2,
                 k0: (self.slide.gravity_m_s2 > 0.0).then_some(nu / (1.0 - nu)),
                 velocity: [self.slide.velocity_m_s, 0.0],

@@ -259,6 +259,7 @@ impl Scene for PipePenetration {
                 },
                 update: self.flow.update,
                 pic_share: self.flow.pic_share,
+                mean_volumes: self.flow.volume == Volume::Cell,
                 intruders: vec![self.intruder()],
                 // what the pipe pushes aside has to go somewhere
                 room: [[0.0; 2], [0.0, 0.5 * self.pipe.diameter_m]],
