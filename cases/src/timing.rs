@@ -159,7 +159,7 @@ mod tests {
         let timing = Timing::of(vec![1.0]).unwrap();
         let known: Timings = names
             .iter()
-            .map(|name| (name.clone(), timing.clone()))
+            .map(|name| (name.clone(), timing))
             .collect();
         write_file(&folder.path().join(TIMING), &json(&known).unwrap()).unwrap();
         forget_some(folder.path(), &[names[1].clone(), "pml/c".to_owned()]).unwrap();
