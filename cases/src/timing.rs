@@ -157,10 +157,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let names = ["pml/a", "pml/b"].map(str::to_owned);
         let timing = Timing::of(vec![1.0]).unwrap();
-        let known: Timings = names
-            .iter()
-            .map(|name| (name.clone(), timing.clone()))
-            .collect();
+        let known: Timings = names.iter().map(|name| (name.clone(), timing)).collect();
         write_file(&folder.path().join(TIMING), &json(&known).unwrap()).unwrap();
         forget_some(folder.path(), &[names[1].clone(), "pml/c".to_owned()]).unwrap();
         let left: Vec<String> = load(folder.path()).unwrap().into_keys().collect();
