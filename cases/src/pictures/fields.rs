@@ -67,6 +67,9 @@ pub(super) fn snapshots(
     ranking: &Ranking,
     references: &References,
 ) -> Result<Option<Picture>, PictureError> {
+    if let Some(picture) = flowing(runs)? {
+        return Ok(Some(picture));
+    }
     let named = |name: &str| {
         let mut runs = runs.iter().filter(|run| !run.record.snapshots.is_empty());
         runs.find(|run| run.manifest.method == name)
@@ -118,6 +121,68 @@ pub(super) fn snapshots(
         drawing,
         raster: true,
     }))
+}
+
+/// Methods beside which the standard run's velocities are shown, those that there are.
+const BESIDE: [&str; 3] = ["dashpot", "pml", "hybrid"];
+
+/// Velocities of flowing material at the snapshots' times: standard run and others; `None` where nothing
+/// flows.
+fn flowing(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
+    let flows = |run: &&&Run| {
+        let mut all = run.record.snapshots.iter().flat_map(|s| &s.columns);
+        all.any(|column| column.name == "vx")
+    };
+    let Some(first) = runs.iter().find(flows) else {
+        return Ok(None);
+    };
+    let shown = |run: &&&Run| {
+        let name = run.manifest.method.as_str();
+        name == run.prepared.info.standard || BESIDE.contains(&name)
+    };
+    let mut columns: Vec<&&Run> = runs.iter().filter(flows).filter(shown).collect();
+    if columns.is_empty() {
+        columns.push(first);
+    }
+    columns.truncate(3);
+    let velocity = |snapshot: &Snapshot| Field::magnitude(snapshot, &["vx", "vy"]);
+    let rows = first.record.snapshots.iter().filter_map(|snapshot| {
+        let fields: Option<Vec<_>> = columns
+            .iter()
+            .map(|run| at(&run.record.snapshots, snapshot.time).map(velocity))
+            .collect();
+        let fields: Result<Vec<Field>, PlotError> = fields?.into_iter().collect();
+        Some(fields.map(|f| (snapshot.time, f)))
+    });
+    let rows: Vec<(f64, Vec<Field>)> = rows.collect::<Result<_, _>>()?;
+    let target = first.prepared.scene.problem().target;
+    let [low, high] = rows
+        .first()
+        .and_then(|(_, fields)| ends(fields.first()?))
+        .unwrap_or([target.lower, target.upper]);
+    let drawing = SnapshotPlot {
+        quantity: "|v|".into(),
+        unit: "m/s".into(),
+        methods: columns.iter().map(|r| r.manifest.method.clone()).collect(),
+        rows,
+        extent: [low, high],
+        meshes: vec![[low, high]; columns.len()],
+    }
+    .draw()?;
+    Ok(Some(Picture {
+        name: "snapshots".into(),
+        title: "Velocity of the soil".into(),
+        caption: "One scale for all; where nothing moves or there is no soil the field is dark."
+            .into(),
+        drawing,
+        raster: true,
+    }))
+}
+
+/// Lower left and upper right corner of a field.
+fn ends(field: &Field) -> Option<Corners> {
+    let (x, y) = (&field.x, &field.y);
+    Some([[*x.first()?, *y.first()?], [*x.last()?, *y.last()?]])
 }
 
 /// The snapshot of a time.

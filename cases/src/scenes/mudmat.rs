@@ -235,6 +235,9 @@ pub static INFO: SceneInfo = SceneInfo {
     build: scene::build::<Mudmat>,
 };
 
+/// Times (s) at which the paper shows velocities.
+const SNAPSHOTS: [f64; 3] = [0.05, 0.3, 0.53];
+
 impl Mudmat {
     /// The slide at the start.
     fn slab(&self) -> Aabb<2> {
@@ -333,7 +336,7 @@ impl Scene for Mudmat {
             probes: Probes {
                 receivers: self.receivers.iter().map(ReceiverSpec::probe).collect(),
                 lines: Vec::new(),
-                snapshot_times: Vec::new(),
+                snapshot_times: SNAPSHOTS.into_iter().filter(|t| *t <= end).collect(),
                 energy_every: Some(every(200.0)),
             },
             solver: SolverKind::Auto,

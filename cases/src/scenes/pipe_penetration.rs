@@ -270,7 +270,7 @@ impl Scene for PipePenetration {
             probes: Probes {
                 receivers: self.receivers.iter().map(ReceiverSpec::probe).collect(),
                 lines: Vec::new(),
-                snapshot_times: Vec::new(),
+                snapshot_times: [0.2, 0.6, 1.0].map(|share| share * end).to_vec(),
                 energy_every: Some((end / dt / 200.0).ceil().max(1.0) as usize),
             },
             solver: SolverKind::Auto,
