@@ -167,7 +167,7 @@ impl<const D: usize> Sampler<D> {
         {
             self.snapshots.remove(0);
             record.snapshots.push(match model.flow {
-                Some(_) => velocity_field(model, t),
+                Some(_) => velocity_field(problem, model, t),
                 None => self.snapshot(model, t),
             });
         }
@@ -244,16 +244,23 @@ impl<const D: usize> Sampler<D> {
 /// Most samples along an axis of a velocity field: as many as a picture shows.
 const MOST_ALONG: usize = 400;
 
-/// The velocity of flowing material on the nodes of the whole grid, or every so many of them; zero where
-/// there is none.
-fn velocity_field<const D: usize>(model: &Model<D>, t: f64) -> Snapshot {
+/// The velocity of flowing material on the nodes of the body and the room around it, or every so many of
+/// them; zero where there is none.
+fn velocity_field<const D: usize>(problem: &Problem<D>, model: &Model<D>, t: f64) -> Snapshot {
     let grid = &model.grid;
-    let most = (0..D).map(|a| grid.nodes_along(a)).max().unwrap_or(1);
+    let index = |x: f64, a: usize| ((x - grid.origin[a]) / grid.h[a]).round().max(0.0) as usize;
+    let (body, room) = (&problem.target, &problem.flow.room);
+    let first: [usize; D] = std::array::from_fn(|a| index(body.lower[a] - room[a][0], a));
+    let nodes_along = |a: usize| {
+        let last = index(body.upper[a] + room[a][1], a);
+        last.min(grid.cells[a]) - first[a] + 1
+    };
+    let most = (0..D).map(nodes_along).max().unwrap_or(1);
     let stride = most.div_ceil(MOST_ALONG);
     let (mut counts, mut origin, mut spacing) = ([1; 3], [0.0; 3], [0.0; 3]);
     for a in 0..D {
-        counts[a] = (grid.nodes_along(a) - 1) / stride + 1;
-        origin[a] = grid.origin[a];
+        counts[a] = (nodes_along(a) - 1) / stride + 1;
+        origin[a] = grid.origin[a] + grid.h[a] * first[a] as f64;
         spacing[a] = grid.h[a] * stride as f64;
     }
     let node = |k: usize| {
@@ -261,7 +268,7 @@ fn velocity_field<const D: usize>(model: &Model<D>, t: f64) -> Snapshot {
         let index = std::array::from_fn(|a| {
             let i = rest % counts[a];
             rest /= counts[a];
-            i * stride
+            first[a] + i * stride
         });
         grid.node(index)
     };
