@@ -150,7 +150,9 @@ pub fn show(prepared: &Prepared, format: Format) -> Result<String, CaseError> {
             );
         }
     }
-    text.push_str("\nEchoes are looked for\n");
+    if !windows.is_empty() {
+        text.push_str("\nEchoes are looked for\n");
+    }
     for window in windows {
         let end = window
             .to_s
