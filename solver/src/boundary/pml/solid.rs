@@ -80,7 +80,9 @@ fn product_of_others<const D: usize>(beta: &Vector<D>) -> Vector<D> {
 
 /// e_2 (1/s2): the products in pairs.
 fn pairs<const D: usize>(beta: &Vector<D>) -> f64 {
-    (0..D).flat_map(|a| (0..a).map(move |b| beta[a] * beta[b])).sum()
+    (0..D)
+        .flat_map(|a| (0..a).map(move |b| beta[a] * beta[b]))
+        .sum()
 }
 
 /// P_ij of a point; see the head of this file.
