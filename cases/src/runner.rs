@@ -2,12 +2,12 @@
 
 use crate::error::CaseError;
 use crate::frames::{Frames, Sampling};
+use crate::posed::{Posed, either};
 use crate::prepare::Prepared;
 use crate::progress::Progress;
 use crate::resume::folder;
 use crate::store::{Manifest, Store};
 use anechoic_solver::record::{Cost, Record, SeriesTable, Status};
-use anechoic_solver::solve;
 use cpu_time::ThreadTime;
 use rayon::ThreadPool;
 use rayon::prelude::*;
@@ -112,12 +112,12 @@ pub fn pool(jobs: usize) -> Result<ThreadPool, CaseError> {
 
 /// Solves one scene on this thread and measures what it costs.
 fn run_one(prepared: Prepared, sampling: Sampling, progress: &Progress) -> Run {
-    let scene = prepared.scene.problem();
-    let problem = sampling.of(&scene);
+    let scene = prepared.scene.posed();
+    let problem = either!(&scene, scene => Posed::from(sampling.of(scene)));
     let monitor = progress.monitor(prepared.bill.points);
     let mut outcome = None;
     let (wall, cpu) = (Instant::now(), ThreadTime::now());
-    let memory = allocation_counter::measure(|| outcome = Some(solve(&problem, &monitor)));
+    let memory = allocation_counter::measure(|| outcome = Some(problem.solve(&monitor)));
     let (wall_s, cpu_s) = (wall.elapsed().as_secs_f64(), cpu.elapsed().as_secs_f64());
     let mut record = match outcome.expect("measure calls its closure once") {
         Ok(outcome) => {
@@ -129,7 +129,7 @@ fn run_one(prepared: Prepared, sampling: Sampling, progress: &Progress) -> Run {
         }
         Err(error) => nothing(error.to_string()),
     };
-    let frames = sampling.part(&scene, &mut record);
+    let frames = either!(&scene, scene => sampling.part(scene, &mut record));
     record.cost.wall_s = wall_s;
     record.cost.cpu_s = cpu_s;
     record.cost.peak_bytes = memory.bytes_max;

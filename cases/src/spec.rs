@@ -18,9 +18,8 @@ pub struct GridSpec {
 
 impl GridSpec {
     /// Longest edge (m) of the cells that fit a body.
-    pub fn cell_m(&self, body: &Aabb<2>) -> f64 {
-        let [width, height] = fitted_cell(body, self.h_m);
-        width.max(height)
+    pub fn cell_m<const D: usize>(&self, body: &Aabb<D>) -> f64 {
+        fitted_cell(body, self.h_m).into_iter().fold(0.0, f64::max)
     }
 }
 
@@ -150,6 +149,14 @@ pub struct ReceiverSpec {
     pub x_m: f64,
     /// Place (m).
     pub y_m: f64,
+    /// Place (m); 0 in the plane.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub z_m: f64,
+}
+
+/// What is left out of a table.
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
 }
 
 impl ReceiverSpec {
@@ -159,14 +166,16 @@ impl ReceiverSpec {
             name: name.to_owned(),
             x_m,
             y_m,
+            z_m: 0.0,
         }
     }
 
-    /// The solver's receiver.
-    pub fn probe(&self) -> Receiver<2> {
+    /// The solver's receiver, with as many coordinates as there are dimensions.
+    pub fn probe<const D: usize>(&self) -> Receiver<D> {
+        let place = [self.x_m, self.y_m, self.z_m];
         Receiver {
             name: self.name.clone(),
-            place: [self.x_m, self.y_m],
+            place: std::array::from_fn(|axis| place[axis]),
         }
     }
 }
@@ -182,6 +191,12 @@ pub struct BoundarySpec {
     pub bottom: SideMethod,
     /// y largest.
     pub top: SideMethod,
+    /// z smallest; in three dimensions alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub back: Option<SideMethod>,
+    /// z largest; in three dimensions alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub front: Option<SideMethod>,
 }
 
 impl BoundarySpec {
@@ -193,14 +208,29 @@ impl BoundarySpec {
         ]
     }
 
-    /// Sides by name.
-    pub fn named(&self) -> [(&'static str, &SideMethod); 4] {
-        [
+    /// The same in three dimensions; sides that are not named are free.
+    pub fn sides_in_space(&self) -> [[SideMethod; 2]; 3] {
+        let [across, up] = self.sides();
+        let through = [&self.back, &self.front].map(|side| {
+            let free = || SideMethod::new("free");
+            side.clone().unwrap_or_else(free)
+        });
+        [across, up, through]
+    }
+
+    /// Sides by name, axis by axis, the lower end first.
+    pub fn named(&self) -> Vec<(&'static str, &SideMethod)> {
+        let plane = [
             ("left", &self.left),
             ("right", &self.right),
             ("bottom", &self.bottom),
             ("top", &self.top),
-        ]
+        ];
+        let through = [("back", &self.back), ("front", &self.front)];
+        let through = through
+            .into_iter()
+            .filter_map(|(name, side)| Some((name, side.as_ref()?)));
+        plane.into_iter().chain(through).collect()
     }
 }
 
@@ -249,7 +279,7 @@ pub const NUMERICS: &[Field] = &[
     Field::new(
         "points.per_cell",
         Kind::Whole(1, 100),
-        "points in a cell, all directions together: a square",
+        "points in a cell, all directions together: a square, or a cube in three dimensions",
     ),
     Field::new(
         "solver.rel_tol",
@@ -306,4 +336,10 @@ pub const PROBES_AND_SIDES: &[Field] = &[
     Field::new("boundary.right", Kind::Side, "x largest"),
     Field::new("boundary.bottom", Kind::Side, "y smallest"),
     Field::new("boundary.top", Kind::Side, "y largest"),
+];
+
+/// Sides of a scene in three dimensions beside those.
+pub const SIDES_IN_SPACE: &[Field] = &[
+    Field::new("boundary.back", Kind::Side, "z smallest"),
+    Field::new("boundary.front", Kind::Side, "z largest"),
 ];

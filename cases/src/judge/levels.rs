@@ -74,15 +74,13 @@ fn level(run: &Run, field: &str) -> Level {
 
 /// Errors at the receivers, level by level.
 fn curves(finest: &Run, levels: &[Level], measured: &[Measured]) -> Vec<Curve> {
-    let receivers = finest.prepared.scene.problem().probes.receivers;
+    let receivers = finest.prepared.scene.posed().receivers();
     let mut curves = Vec::new();
     for metric in ERRORS {
-        for receiver in &receivers {
-            let errors = measured
-                .iter()
-                .map(|level| error(level, metric, &receiver.name));
+        for (receiver, _) in &receivers {
+            let errors = measured.iter().map(|level| error(level, metric, receiver));
             let errors = errors.collect();
-            curves.push(Curve::new(metric, &receiver.name, levels, errors));
+            curves.push(Curve::new(metric, receiver, levels, errors));
         }
     }
     curves

@@ -21,6 +21,7 @@ mod values;
 
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
+use crate::posed::Posed;
 use crate::scene::{self, Beside, OwnNumber, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
 use anechoic_solver::boundary::{SideMethod, extended};
@@ -233,10 +234,9 @@ impl PipePenetration {
             },
         }
     }
-}
 
-impl Scene for PipePenetration {
-    fn problem(&self) -> Problem<2> {
+    /// What the solver is given.
+    pub fn problem(&self) -> Problem<2> {
         let (dt, end) = (self.dt(), self.end_s());
         Problem {
             target: self.soil(),
@@ -272,6 +272,12 @@ impl Scene for PipePenetration {
             solver: SolverKind::Auto,
             rel_tol: 1e-10,
         }
+    }
+}
+
+impl Scene for PipePenetration {
+    fn posed(&self) -> Posed {
+        self.problem().into()
     }
 
     fn boundary(&self) -> &BoundarySpec {

@@ -63,7 +63,7 @@ pub(super) fn references(scene: &Lamb, times: &[f64]) -> Result<Vec<Reference>, 
             .map(|receiver| {
                 let motion = motion(scene, receiver, times, panel(&scene.source.pulse()))
                     .map_err(|reason| format!("receiver {}: {reason}", receiver.name))?;
-                Ok((receiver.name.clone(), motion))
+                Ok((receiver.name.clone(), motion.to_vec()))
             })
             .collect::<Result<_, String>>()?,
         // P, S and Rayleigh waves overlap.
