@@ -114,6 +114,69 @@ fn axes_are_alike() {
     }
 }
 
+/// Where faces, edges and the corner meet, the effective matrix of implicit steps is the derivative of the
+/// forces, and symmetric: analytic, the equations say so.
+#[test]
+fn the_tangent_is_that_of_the_forces_and_symmetric() {
+    let mut problem = quarter(2, layer(2));
+    problem.scheme = Scheme::Newmark;
+    // large against 1/beta, so that all memories weigh
+    problem.dt = 0.05;
+    let dt = problem.dt;
+    let mut model = setup::model(&problem).unwrap();
+    let moment = Moment {
+        step: 1,
+        time_s: dt,
+    };
+    model.begin_step([0.0, dt], moment).unwrap();
+    let n = model.grid.node_count();
+    let (rest, rates) = (vec![[0.0; 3]; n], [4.0 / (dt * dt), 2.0 / dt]);
+    let mut forces = |increment: &[[f64; 3]]| {
+        let times = |rate: f64| -> Vec<[f64; 3]> {
+            increment.iter().map(|d| d.map(|x| rate * x)).collect()
+        };
+        let (a, v) = (times(rates[0]), times(rates[1]));
+        let trial = Motion {
+            increment,
+            v: &v,
+            a: &a,
+        };
+        let mut out = rest.clone();
+        let scale = model.residual(&trial, &mut out).unwrap();
+        (out, scale)
+    };
+    let (start, _) = forces(&rest);
+    // what is held has no force, and does not move
+    let free = |x: f64, f: f64| if f == 0.0 { 0.0 } else { x };
+    let mut rough = |seed: f64| -> (Vec<[f64; 3]>, Vec<[f64; 3]>, _) {
+        let sine = |k: usize, i: usize| (seed * (3 * k + i + k * k) as f64).sin();
+        let all: Vec<[f64; 3]> = (0..n)
+            .map(|k| std::array::from_fn(|i| sine(k, i)))
+            .collect();
+        let (held, _) = forces(&all);
+        let d: Vec<[f64; 3]> = (0..n)
+            .map(|k| std::array::from_fn(|i| free(all[k][i], held[k][i])))
+            .collect();
+        let (end, scale) = forces(&d);
+        let change = start.iter().zip(&end);
+        let change = change.map(|(a, b)| std::array::from_fn(|i| a[i] - b[i]));
+        (d, change.collect(), scale)
+    };
+    let ((x, kx, scale), (y, ky, _)) = (rough(1.3), rough(0.7));
+    let dot = |a: &[[f64; 3]], b: &[[f64; 3]]| -> f64 {
+        let pairs = a.as_flattened().iter().zip(b.as_flattened());
+        pairs.map(|(a, b)| a * b).sum()
+    };
+    let asymmetry = (dot(&y, &kx) - dot(&x, &ky)).abs() / dot(&x, &kx).abs();
+    let mut found = rest.clone();
+    let [mass, viscous] = rates;
+    let rates = anechoic_solver::time::Rates { mass, viscous };
+    model.solve(rates, &rest, &kx, scale, &mut found).unwrap();
+    let error = apart(found.as_flattened(), x.as_flattened());
+    println!("asymmetry {asymmetry:.1e}; solved for an increment of 1: wrong by {error:.1e}");
+    assert!(asymmetry < 1e-13 && error < 1e-9);
+}
+
 /// Highest frequency (rad/s) of the elastic mesh, by power iteration on M^-1 K.
 fn highest_frequency<const D: usize>(problem: &Problem<D>) -> f64
 where

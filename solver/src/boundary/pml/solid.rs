@@ -336,3 +336,6 @@ impl<const D: usize> RegionKernel<D> for Solid<D> {
         self.gradient.iter().zip(volumes).map(energy).sum()
     }
 }
+
+#[cfg(test)]
+mod tests;
