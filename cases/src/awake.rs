@@ -21,7 +21,7 @@ pub fn awake_share(posed: &Posed) -> Result<f64, SolverError> {
 fn share<const D: usize>(problem: &Problem<D>) -> Result<f64, SolverError> {
     let (all, h) = (
         material_box(problem)?,
-        fitted_cell(&problem.target, problem.cell_size),
+        fitted_cell(&problem.target, problem.edges()),
     );
     let counts: [usize; D] =
         std::array::from_fn(|a| ((all.upper[a] - all.lower[a]) / h[a]).round() as usize);

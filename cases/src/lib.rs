@@ -12,7 +12,8 @@
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
 //! - [`over`]: levels of convergence studies; [`sweep`]: points of sweeps.
-//! - [`timing`]: runs for their time alone; [`awake`]: cells that a wave has reached.
+//! - [`timing`]: runs for their time alone; [`awake`]: cells that a wave has reached; [`spectrum`]: what
+//!   small meshes with a scene's sides grow by.
 //! - [`atlas`]: what sides reflect of plane waves, by angle.
 //! - [`commands`], [`cli`]: the program.
 
@@ -43,6 +44,7 @@ pub mod scene_text;
 pub mod scenes;
 pub mod shard;
 pub mod spec;
+pub mod spectrum;
 pub mod store;
 pub mod study;
 pub mod sweep;

@@ -5,7 +5,7 @@ use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::{LineProbe, Receiver};
 use anechoic_solver::problem::{
-    Aabb, Elastic, MassKind, PointMode, Scheme, SolverKind, StressUpdate, Transfer,
+    Aabb, Elastic, MassKind, PointMode, Scheme, SolverKind, StressUpdate, Transfer, edges,
 };
 use serde::{Deserialize, Serialize};
 
@@ -14,12 +14,20 @@ use serde::{Deserialize, Serialize};
 pub struct GridSpec {
     /// Largest edge of a cell (m); cells are made to fit the body.
     pub h_m: f64,
+    /// Edge along x over edge along y; left out: 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub aspect: Option<f64>,
 }
 
 impl GridSpec {
-    /// Longest edge (m) of the cells that fit a body.
-    pub fn cell_m<const D: usize>(&self, body: &Aabb<D>) -> f64 {
-        fitted_cell(body, self.h_m).into_iter().fold(0.0, f64::max)
+    /// Edge along x over edge along y.
+    pub fn aspect(&self) -> f64 {
+        self.aspect.unwrap_or(1.0)
+    }
+
+    /// Edges (m) of the cells that fit a body.
+    pub fn cell<const D: usize>(&self, body: &Aabb<D>) -> [f64; D] {
+        fitted_cell(body, edges(self.h_m, self.aspect()))
     }
 }
 
@@ -83,6 +91,9 @@ pub struct PointsSpec {
     pub transfer: Transfer,
     /// Points in a cell, all directions together.
     pub per_cell: usize,
+    /// Distance of a cell's outermost points from its faces over its edges; left out: half of a part.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub face_gap: Option<f64>,
 }
 
 /// What explicit steps of moving points have besides.
@@ -247,6 +258,11 @@ pub const NUMERICS: &[Field] = &[
         "largest edge of a cell (m); cells are fitted to the body",
     ),
     Field::new(
+        "grid.aspect",
+        Kind::OptionalNumber(ASPECT, "left out: 1, square cells"),
+        "edge of a cell along x over that along y; the longer is grid.h_m",
+    ),
+    Field::new(
         "time.scheme",
         Kind::Word(&["newmark", "explicit", "quasi-static"]),
         "time integration",
@@ -282,6 +298,14 @@ pub const NUMERICS: &[Field] = &[
         "points in a cell, all directions together: a square, or a cube in three dimensions",
     ),
     Field::new(
+        "points.face_gap",
+        Kind::OptionalNumber(
+            Range::inside(0.0, 0.5),
+            "left out: points at the centres of equal parts",
+        ),
+        "distance of a cell's outermost points from its faces over its edges",
+    ),
+    Field::new(
         "solver.rel_tol",
         Kind::Number(TOLERANCE),
         "relative tolerance of the linear solver",
@@ -292,6 +316,9 @@ pub const NUMERICS: &[Field] = &[
         "linear solver",
     ),
 ];
+
+/// Cells thinner than this are no mesh for waves.
+const ASPECT: Range = Range::within(0.01, 100.0);
 
 /// Above a thousandth the solver's error is as large as the echoes that are looked for.
 const TOLERANCE: Range = Range {

@@ -46,6 +46,20 @@ pub fn forget(folder: &Path) -> Result<(), CaseError> {
     write_file(&folder.join(TIMING), &json(&Timings::new())?)
 }
 
+/// Forgets the times of runs that are solved again, by their folders.
+///
+/// # Errors
+/// [`CaseError::Storage`], and what [`load`] says.
+pub fn forget_some(folder: &Path, keys: &[String]) -> Result<(), CaseError> {
+    let mut timings = load(folder)?;
+    let known = timings.len();
+    timings.retain(|key, _| !keys.contains(key));
+    if timings.len() == known {
+        return Ok(());
+    }
+    write_file(&folder.join(TIMING), &json(&timings)?)
+}
+
 /// Takes the times of a study away, whoever else does so at the same time.
 ///
 /// # Errors
@@ -133,4 +147,24 @@ fn once(problem: &Posed, run: &Run, progress: &Progress) -> Option<f64> {
     let outcome = problem.solve(&monitor).ok()?;
     let time = start.elapsed().as_secs_f64();
     (outcome.record.status == Status::Complete).then_some(time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_times_of_runs_that_are_solved_again_are_forgotten() {
+        let folder = tempfile::tempdir().unwrap();
+        let names = ["pml/a", "pml/b"].map(str::to_owned);
+        let timing = Timing::of(vec![1.0]).unwrap();
+        let known: Timings = names
+            .iter()
+            .map(|name| (name.clone(), timing.clone()))
+            .collect();
+        write_file(&folder.path().join(TIMING), &json(&known).unwrap()).unwrap();
+        forget_some(folder.path(), &[names[1].clone(), "pml/c".to_owned()]).unwrap();
+        let left: Vec<String> = load(folder.path()).unwrap().into_keys().collect();
+        assert_eq!(left, names[..1]);
+    }
 }

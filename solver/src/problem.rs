@@ -266,6 +266,8 @@ pub struct Problem<const D: usize> {
     pub target: Aabb<D>,
     /// Largest edge of a cell (m); cells are made to fit the body.
     pub cell_size: f64,
+    /// Edge of a cell along x over those along the other axes; the longer is `cell_size`.
+    pub aspect: f64,
     /// Shape functions.
     pub basis: BasisKind,
     /// Time integration.
@@ -282,6 +284,9 @@ pub struct Problem<const D: usize> {
     pub transfer: Transfer,
     /// Material points in a cell: a D-th power.
     pub points_per_cell: usize,
+    /// Distance of a cell's outermost points from its faces over its edges; `None`: points lie at the
+    /// centres of equal parts.
+    pub face_gap: Option<f64>,
     /// The material of target and layers.
     pub material: Elastic,
     /// What explicit steps of moving points have besides.
@@ -298,7 +303,20 @@ pub struct Problem<const D: usize> {
     pub rel_tol: f64,
 }
 
+/// Edges (m) of cells whose longer one is given, by the edge along x over the others.
+pub fn edges<const D: usize>(longest: f64, aspect: f64) -> [f64; D] {
+    std::array::from_fn(|axis| match axis {
+        0 => longest * aspect.min(1.0),
+        _ => longest / aspect.max(1.0),
+    })
+}
+
 impl<const D: usize> Problem<D> {
+    /// Largest edges of a cell (m).
+    pub fn edges(&self) -> [f64; D] {
+        edges(self.cell_size, self.aspect)
+    }
+
     /// Steps that it takes to reach the end.
     pub fn steps(&self) -> usize {
         (self.end_time / self.dt - 1e-9).ceil().max(1.0) as usize

@@ -75,6 +75,8 @@ pub fn block(transfer: Transfer, point_mode: PointMode) -> Problem<2> {
             upper: [4.0, 3.0],
         },
         cell_size: 0.5,
+        aspect: 1.0,
+        face_gap: None,
         basis: BasisKind::Linear,
         scheme: Scheme::Newmark,
         mass: MassKind::Lumped,
@@ -109,6 +111,8 @@ pub fn column(h: f64, base: SideMethod) -> Problem<2> {
             upper: [4.0 * h, 50.0],
         },
         cell_size: h,
+        aspect: 1.0,
+        face_gap: None,
         dt: 0.005 * h,
         end_time: 3.0,
         material: Elastic {
@@ -159,6 +163,8 @@ pub fn half_space(layer: SideMethod, point_mode: PointMode, transfer: Transfer) 
             upper: [800.0, 0.0],
         },
         cell_size: 20.0,
+        aspect: 1.0,
+        face_gap: None,
         dt: 0.01,
         end_time: 3.0,
         material: Elastic {

@@ -27,6 +27,8 @@ pub fn quarter(cells: usize, layer: SideMethod) -> Problem<3> {
             upper: [size, 0.0, size],
         },
         cell_size: CELL,
+        aspect: 1.0,
+        face_gap: None,
         basis: plane.basis,
         scheme: Scheme::Explicit,
         mass: plane.mass,

@@ -51,6 +51,12 @@ impl Subject {
                 reason: "the waves' frequency is that of the scene's source, and it has none",
             });
         };
+        if like.aspect != 1.0 {
+            return Err(AtlasError::Unsupported {
+                field: "grid.aspect",
+                reason: "a strip has square cells; leave it out",
+            });
+        }
         let [_, [bottom, _]] = &like.sides;
         let [[left, right], [_, top]] = &like.sides;
         let sides = [right, bottom, left, top];
@@ -160,6 +166,7 @@ impl Subject {
     pub fn resting(&self) -> Problem<2> {
         Problem {
             cell_size: self.h,
+            aspect: 1.0,
             point_mode: PointMode::Frozen,
             transfer: Transfer::Keep,
             ..self.like.clone()

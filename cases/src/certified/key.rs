@@ -43,6 +43,12 @@ fn table_of<const D: usize>(problem: &Problem<D>) -> Table {
     put("E_Pa", problem.material.youngs_modulus.into());
     put("nu", problem.material.poissons_ratio.into());
     put("rho_kg_m3", problem.material.density.into());
+    if problem.aspect != 1.0 {
+        put("aspect", problem.aspect.into());
+    }
+    if let Some(gap) = problem.face_gap {
+        put("face_gap", gap.into());
+    }
     put("rel_tol", problem.rel_tol.into());
     for side in sides::<D>() {
         let method = &problem.sides[side.axis][usize::from(side.upper)];
@@ -140,8 +146,10 @@ mod tests {
             of(|s| s.boundary.left = SideMethod::new("dashpot")),
             hash_of_default
         );
-        let changes: [fn(&mut PointSource); 7] = [
+        let changes: [fn(&mut PointSource); 9] = [
             |s| s.grid.h_m = 10.0,
+            |s| s.grid.aspect = Some(2.0),
+            |s| s.points.face_gap = Some(0.1),
             |s| s.solver.rel_tol = 1e-8,
             |s| s.material.nu = 0.3,
             |s| s.source.x_m = 1140.0,

@@ -184,7 +184,7 @@ fn load(problem: &Problem<2>, times: &[f64]) -> SeriesTable {
 /// The body's cells, row by row from the lower left one.
 fn mesh(problem: &Problem<2>) -> String {
     let target = &problem.target;
-    let h = fitted_cell(target, problem.cell_size);
+    let h = fitted_cell(target, problem.edges());
     let count =
         |axis: usize| ((target.upper[axis] - target.lower[axis]) / h[axis]).round() as usize;
     let mut text = String::from("cell,x_min_m,x_max_m,y_min_m,y_max_m\n");

@@ -21,7 +21,7 @@ const REACH: f64 = 0.2;
 pub fn prescribed_until<const D: usize>(problem: &Problem<D>, receiver: &str) -> Option<f64> {
     let mut places = problem.probes.receivers.iter();
     let place = places.find(|r| r.name == receiver)?.place;
-    let cell = fitted_cell(&problem.target, problem.cell_size);
+    let cell = fitted_cell(&problem.target, problem.edges());
     let until = problem.drives.iter().filter_map(|drive| {
         let Drive::SideVelocity { side, pulse } = drive else {
             return None;

@@ -1,6 +1,7 @@
 //! From runs to rows: every metric that applies, against every reference that the scene gives.
 
 mod arrivals;
+mod budget;
 mod certified;
 mod foreign;
 mod goodness;
@@ -16,12 +17,13 @@ mod stability;
 mod subject;
 mod trades;
 
+pub use budget::{BUDGET, CAUSES, ERRORS, budget_label};
 pub use certified::CERTIFIER;
 pub use levels::judge_levels;
 pub use points::judge_points;
 pub use rows::rows_unread;
 pub use series::{traces, traces_of};
-pub use stability::judge_stability;
+pub use stability::{RATIO_AXIS, STEP_AXIS, judge_stability};
 pub use trades::judge_trades;
 
 use crate::certified::Certified;

@@ -25,7 +25,6 @@ use crate::checks::Checks;
 use crate::posed::Posed;
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
-use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::Probes;
 use anechoic_solver::problem::{BasisKind, Drive, FlowSetup, Problem, Scheme, Side};
 use anechoic_solver::wavelet::{Pulse, Wavelet};
@@ -122,6 +121,7 @@ impl Compression1d {
         Problem {
             target: self.body.target(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
             basis: self.basis,
             scheme: self.time.scheme,
             mass: self.time.mass,
@@ -130,6 +130,7 @@ impl Compression1d {
             point_mode: self.points.mode,
             transfer: self.points.transfer,
             points_per_cell: self.points.per_cell,
+            face_gap: self.points.face_gap,
             material: self.material.elastic(),
             flow: FlowSetup::default(),
             sides: self.boundary.sides(),
@@ -190,7 +191,7 @@ impl Scene for Compression1d {
 
     /// Their height: waves run up and down alone.
     fn cell_m(&self) -> f64 {
-        fitted_cell(&self.body.target(), self.grid.h_m)[1]
+        self.grid.cell(&self.body.target())[1]
     }
 
     fn orders(&self, sizes: &[f64]) -> Vec<SceneClaim> {

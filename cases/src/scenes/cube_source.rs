@@ -154,6 +154,8 @@ impl CubeSource {
         Problem {
             target: self.target.body(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
+            face_gap: self.points.face_gap,
             basis: self.basis,
             scheme: self.time.scheme,
             mass: self.time.mass,
@@ -251,6 +253,7 @@ impl Scene for CubeSource {
     }
 
     fn cell_m(&self) -> f64 {
-        self.grid.cell_m(&self.target.body())
+        let edges = self.grid.cell(&self.target.body());
+        edges.into_iter().fold(0.0, f64::max)
     }
 }

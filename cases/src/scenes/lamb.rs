@@ -61,6 +61,9 @@ pub static INFO: SceneInfo = SceneInfo {
 /// scene's own material.
 const STEP_PER_METRE: f64 = 0.0005;
 
+/// Panels of the finer quadrature over those of the usual one.
+const FINER: f64 = 0.25;
+
 impl Lamb {
     /// Time step (s).
     fn dt(&self) -> f64 {
@@ -112,7 +115,11 @@ impl Scene for Lamb {
     }
 
     fn references(&self, times: &[f64]) -> Result<Vec<Reference>, String> {
-        exact::references(self, times)
+        exact::references(self, times, 1.0)
+    }
+
+    fn finer_references(&self, times: &[f64]) -> Result<Option<Vec<Reference>>, String> {
+        exact::references(self, times, FINER).map(Some)
     }
 
     fn claims(&self) -> Vec<SceneClaim> {

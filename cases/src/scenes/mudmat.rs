@@ -23,12 +23,13 @@ mod values;
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
 use crate::posed::Posed;
-use crate::scene::{self, Beside, OwnNumber, Reference, Scene, SceneClaim, SceneInfo, Window};
+use crate::scene::{
+    self, Beside, Curve, OwnNumber, OwnPicture, Reference, Scene, SceneClaim, SceneInfo, Window,
+};
 use crate::spec::*;
 use anechoic_solver::contact::Contact;
 use anechoic_solver::contact::body::{Motion, RigidBody};
 use anechoic_solver::contact::shape::Shape;
-use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::material::herschel_bulkley::RateStrength;
 use anechoic_solver::material::strength::Strength;
 use anechoic_solver::probe::Probes;
@@ -246,7 +247,7 @@ impl Mudmat {
 
     /// Shortest edge of a cell (m).
     fn h(&self) -> f64 {
-        let [x, y] = fitted_cell(&self.slab(), self.grid.h_m);
+        let [x, y] = self.grid.cell(&self.slab());
         x.min(y)
     }
 
@@ -256,12 +257,18 @@ impl Mudmat {
     }
 
     fn intruder(&self) -> Intruder {
-        let half = [0.5 * self.mudmat.length_m, 0.5 * self.mudmat.exposed_m];
+        let Mat {
+            exposed_m: exposed,
+            length_m: length,
+            ..
+        } = self.mudmat;
+        // it reaches down into the base, so that what touches it at the base is pushed back and not down
+        let half = [0.5 * length, 0.5 * (exposed + length)];
         Intruder {
             name: "mudmat".to_owned(),
             body: RigidBody {
                 shape: Shape::Rectangle {
-                    centre: half,
+                    centre: [half[0], exposed - half[1]],
                     half,
                     corner_radius: (0.5 * self.h()).min(half[1]).min(half[0]),
                 },
@@ -294,6 +301,8 @@ impl Mudmat {
         Problem {
             target: self.slab(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
+            face_gap: self.points.face_gap,
             basis: self.basis,
             scheme: self.time.scheme,
             mass: Default::default(),
@@ -313,7 +322,7 @@ impl Mudmat {
                 intruders: vec![self.intruder()],
                 // the front runs on over the mudmat, and heaps up before it
                 room: [
-                    [0.0, 1.5 * self.slide.velocity_m_s * end + 2.0],
+                    [0.0, 2.5 * self.slide.velocity_m_s * end + 2.0],
                     [0.0, 0.2 * self.body.height_m],
                 ],
                 ..FlowSetup::default()
@@ -367,6 +376,14 @@ impl Scene for Mudmat {
 
     fn measures(&self, run: &Record, beside: &Beside<'_>) -> Vec<OwnNumber> {
         claims::numbers(self, run, beside)
+    }
+
+    fn pictures(&self) -> Vec<OwnPicture> {
+        claims::pictures(self)
+    }
+
+    fn curve(&self, _name: &str, run: &Record) -> Option<Curve> {
+        claims::curve(self, run)
     }
 
     fn claims(&self) -> Vec<SceneClaim> {

@@ -22,13 +22,14 @@ mod values;
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
 use crate::posed::Posed;
-use crate::scene::{self, Beside, OwnNumber, Reference, Scene, SceneClaim, SceneInfo, Window};
+use crate::scene::{
+    self, Beside, Curve, OwnNumber, OwnPicture, Reference, Scene, SceneClaim, SceneInfo, Window,
+};
 use crate::spec::*;
 use anechoic_solver::boundary::{SideMethod, extended};
 use anechoic_solver::contact::Contact;
 use anechoic_solver::contact::body::{Motion, RigidBody};
 use anechoic_solver::contact::shape::Shape;
-use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::material::strength::Strength;
 use anechoic_solver::probe::Probes;
 use anechoic_solver::problem::{
@@ -200,7 +201,7 @@ impl PipePenetration {
 
     /// Shortest edge of a cell (m).
     fn h(&self) -> f64 {
-        let [x, y] = fitted_cell(&self.soil(), self.grid.h_m);
+        let [x, y] = self.grid.cell(&self.soil());
         x.min(y)
     }
 
@@ -241,6 +242,8 @@ impl PipePenetration {
         Problem {
             target: self.soil(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
+            face_gap: self.points.face_gap,
             basis: self.basis,
             scheme: self.time.scheme,
             mass: Default::default(),
@@ -329,6 +332,14 @@ impl Scene for PipePenetration {
         let down = self.body.height_m + added(&sides.bottom)?;
         let reach = 0.5 * self.pipe.diameter_m + self.pipe.depth * self.pipe.diameter_m;
         Some((2.0 * right.min(down) - reach) / self.material.elastic.elastic().p_speed())
+    }
+
+    fn pictures(&self) -> Vec<OwnPicture> {
+        claims::pictures(self)
+    }
+
+    fn curve(&self, _name: &str, run: &Record) -> Option<Curve> {
+        claims::curve(self, run)
     }
 
     fn claims(&self) -> Vec<SceneClaim> {

@@ -434,6 +434,12 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
         Ok(())
     }
 
+    fn memories(&mut self) -> Vec<&mut [f64]> {
+        let mut all = vec![self.memory.as_flattened_mut().as_flattened_mut()];
+        all.extend(self.shifted.iter_mut().flat_map(ShiftedInertia::memory));
+        all
+    }
+
     fn stiffness(&self) -> Stiffness {
         Stiffness::Constant
     }

@@ -141,6 +141,7 @@ fn start<const D: usize>(
             Transfer::Pic => Carry::Flip { pic: 1.0 },
             Transfer::Affine | Transfer::Keep => Carry::Affine,
         },
+        mean_volumes: false,
         shared: problem.flow.shared,
     }
 }

@@ -160,6 +160,11 @@ impl<const D: usize> ShiftedInertia<D> {
         self.lumped = lumped;
     }
 
+    /// theta_1 and theta_2.
+    pub fn memory(&mut self) -> impl Iterator<Item = &mut [f64]> {
+        self.theta.iter_mut().map(|theta| theta.as_flattened_mut())
+    }
+
     /// Sets the memories of the end of the trial step.
     fn advance(&mut self, trial: &Trial<'_, D>) {
         let (keep, gain) = self.rule(trial.dt);

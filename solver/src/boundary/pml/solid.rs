@@ -55,16 +55,40 @@ pub(super) struct Solid<const D: usize> {
     /// psi, the integral of phi (s2), of the points in edges and corners, in the points' order.
     integral: Vec<Matrix<D>>,
     /// Nodes of corners; `None` until their weights are asked for.
-    corners: Option<Vec<CornerNode<D>>>,
+    corners: Option<Corners<D>>,
 }
 
-/// A node that three layers reach.
-struct CornerNode<const D: usize> {
-    node: usize,
-    /// e_3 times the mass (kg/s3).
-    weight: Vector<D>,
-    /// U, the integral of the displacement (m s).
-    integral: Vector<D>,
+/// The nodes that three layers reach.
+struct Corners<const D: usize> {
+    nodes: Vec<usize>,
+    /// e_3 times the mass of each (kg/s3).
+    weight: Vec<Vector<D>>,
+    /// U, the integral of the displacement of each (m s).
+    integral: Vec<Vector<D>>,
+}
+
+impl<const D: usize> Corners<D> {
+    /// Sets U'.
+    fn advance(&mut self, trial: &Trial<'_, D>) {
+        for (node, integral) in self.nodes.iter().zip(&mut self.integral) {
+            let (u, d) = (trial.start[*node], trial.increment[*node]);
+            for i in 0..D {
+                integral[i] += 0.5 * trial.dt * (2.0 * u[i] + d[i]);
+            }
+        }
+    }
+
+    /// Adds `e_3 U`, or `e_3 U'` of a trial.
+    fn force(&self, trial: Option<&Trial<'_, D>>, out: &mut [Vector<D>]) {
+        for ((node, weight), integral) in self.nodes.iter().zip(&self.weight).zip(&self.integral) {
+            for i in 0..D {
+                let more = trial.map_or(0.0, |trial| {
+                    0.5 * trial.dt * (2.0 * trial.start[*node][i] + trial.increment[*node][i])
+                });
+                out[*node][i] += weight[i] * (integral[i] + more);
+            }
+        }
+    }
 }
 
 /// In an edge or a corner, where psi matters?
@@ -152,11 +176,7 @@ impl<const D: usize> Solid<D> {
     }
 
     /// The nodes of corners, their weights lumped once: the points of a layer rest.
-    fn corners(
-        &mut self,
-        disc: &dyn Discretisation<D>,
-        points: &Points<D>,
-    ) -> &mut Vec<CornerNode<D>> {
+    fn corners(&mut self, disc: &dyn Discretisation<D>, points: &Points<D>) -> &mut Corners<D> {
         let (range, beta) = (&self.range, &self.beta);
         self.corners.get_or_insert_with(|| {
             let mut weights = vec![[0.0; D]; disc.node_count()];
@@ -171,20 +191,13 @@ impl<const D: usize> Solid<D> {
             }
             let weighty = weights.into_iter().enumerate();
             let weighty = weighty.filter(|(_, weight)| *weight != [0.0; D]);
-            weighty
-                .map(|(node, weight)| CornerNode {
-                    node,
-                    weight,
-                    integral: [0.0; D],
-                })
-                .collect()
+            let (nodes, weight): (Vec<_>, Vec<_>) = weighty.unzip();
+            Corners {
+                integral: vec![[0.0; D]; nodes.len()],
+                nodes,
+                weight,
+            }
         })
-    }
-
-    /// U' of a corner's node.
-    fn next_integral(corner: &CornerNode<D>, trial: &Trial<'_, D>) -> Vector<D> {
-        let (u, d) = (trial.start[corner.node], trial.increment[corner.node]);
-        std::array::from_fn(|i| corner.integral[i] + 0.5 * trial.dt * (2.0 * u[i] + d[i]))
     }
 }
 
@@ -208,12 +221,7 @@ impl<const D: usize> ExplicitKernel<D> for Solid<D> {
             }
             disc.scatter_stress(block.clone(), &points.volume[block], &stress[..n], out);
         }
-        for corner in self.corners(disc, points) {
-            let f = &mut out[corner.node];
-            for i in 0..D {
-                f[i] += corner.weight[i] * corner.integral[i];
-            }
-        }
+        self.corners(disc, points).force(None, out);
     }
 
     fn advance(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError> {
@@ -250,13 +258,8 @@ impl<const D: usize> RegionKernel<D> for Solid<D> {
             let volumes = &trial.points.volume[block.clone()];
             trial.disc.scatter_stress(block, volumes, &stress[..n], out);
         }
-        for corner in self.corners(trial.disc, trial.points) {
-            let integral = Self::next_integral(corner, trial);
-            let f = &mut out[corner.node];
-            for i in 0..D {
-                f[i] += corner.weight[i] * integral[i];
-            }
-        }
+        let corners = self.corners(trial.disc, trial.points);
+        corners.force(Some(trial), out);
         Ok(())
     }
 
@@ -279,12 +282,13 @@ impl<const D: usize> RegionKernel<D> for Solid<D> {
             a
         };
         scatter_moduli(self.range.clone(), trial, moduli_of, out);
-        for corner in self.corners(trial.disc, trial.points) {
+        let corners = self.corners(trial.disc, trial.points);
+        for (node, weight) in corners.nodes.iter().zip(&corners.weight) {
             let mut own = zero::<D>();
             for i in 0..D {
-                own[i][i] = 0.5 * trial.dt * corner.weight[i];
+                own[i][i] = 0.5 * trial.dt * weight[i];
             }
-            out.add(corner.node, corner.node, &own);
+            out.add(*node, *node, &own);
         }
     }
 
@@ -306,10 +310,17 @@ impl<const D: usize> RegionKernel<D> for Solid<D> {
                 self.gradient[q] = *g;
             }
         }
-        for corner in self.corners(trial.disc, trial.points) {
-            corner.integral = Self::next_integral(corner, trial);
-        }
+        self.corners(trial.disc, trial.points).advance(trial);
         Ok(())
+    }
+
+    fn memories(&mut self) -> Vec<&mut [f64]> {
+        let mut all = vec![
+            self.memory.as_flattened_mut().as_flattened_mut(),
+            self.integral.as_flattened_mut().as_flattened_mut(),
+        ];
+        all.extend(self.corners.iter_mut().map(|c| c.integral.as_flattened_mut()));
+        all
     }
 
     fn stiffness(&self) -> Stiffness {
