@@ -4,6 +4,7 @@
 //! - [`spec`], [`half_space`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
 //! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
 //! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
+//! - [`posed`]: what a scene gives the solver, in the plane or in space.
 //! - [`shard`]: shares of a plan for several processes.
 //! - [`frames`]: fields over time on request.
 //! - [`runner`], [`progress`]: solving; [`store`]: records on disk; [`resume`]: those that are read
@@ -32,6 +33,7 @@ pub mod half_space;
 pub mod judge;
 pub mod over;
 pub mod pictures;
+pub mod posed;
 pub mod prepare;
 pub mod progress;
 pub mod provenance;

@@ -2,12 +2,12 @@
 
 use crate::error::CaseError;
 use crate::frames::{Frames, Sampling};
+use crate::posed::{Posed, either};
 use crate::prepare::Prepared;
 use crate::progress::Progress;
 use crate::resume::folder;
 use crate::store::{Manifest, Store};
 use anechoic_solver::record::{Cost, Record, SeriesTable, Status};
-use anechoic_solver::solve;
 use cpu_time::{ProcessTime, ThreadTime};
 use rayon::ThreadPool;
 use rayon::prelude::*;
@@ -114,13 +114,16 @@ pub fn pool(jobs: usize) -> Result<ThreadPool, CaseError> {
 
 /// Solves one scene and measures what it costs: on this thread, or on all of the pool where it is alone.
 fn run_one(prepared: Prepared, sampling: Sampling, progress: &Progress, alone: bool) -> Run {
-    let scene = prepared.scene.problem();
-    let mut problem = sampling.of(&scene);
-    problem.flow.shared = alone;
+    let scene = prepared.scene.posed();
+    let problem = either!(&scene, scene => {
+        let mut problem = sampling.of(scene);
+        problem.flow.shared = alone;
+        Posed::from(problem)
+    });
     let monitor = progress.monitor(prepared.bill.points);
     let mut outcome = None;
     let (wall, cpu, all) = (Instant::now(), ThreadTime::now(), ProcessTime::now());
-    let memory = allocation_counter::measure(|| outcome = Some(solve(&problem, &monitor)));
+    let memory = allocation_counter::measure(|| outcome = Some(problem.solve(&monitor)));
     let cpu = if alone { all.elapsed() } else { cpu.elapsed() };
     let (wall_s, cpu_s) = (wall.elapsed().as_secs_f64(), cpu.as_secs_f64());
     let mut record = match outcome.expect("measure calls its closure once") {
@@ -133,7 +136,7 @@ fn run_one(prepared: Prepared, sampling: Sampling, progress: &Progress, alone: b
         }
         Err(error) => nothing(error.to_string()),
     };
-    let frames = sampling.part(&scene, &mut record);
+    let frames = either!(&scene, scene => sampling.part(scene, &mut record));
     record.cost.wall_s = wall_s;
     record.cost.cpu_s = cpu_s;
     record.cost.peak_bytes = memory.bytes_max;

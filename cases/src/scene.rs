@@ -2,11 +2,11 @@
 
 use crate::checks::Checks;
 use crate::field::Field;
+use crate::posed::Posed;
 use crate::spec::BoundarySpec;
 use crate::sweep::named::NamedSweep;
 use anechoic_reference::claim::{Claim, Evidence};
 use anechoic_reports::study::Finding;
-use anechoic_solver::problem::Problem;
 use anechoic_solver::record::Record;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -16,7 +16,7 @@ use toml::Table;
 /// A benchmark with the values it is run with, sides included.
 pub trait Scene: Debug + Send + Sync {
     /// What the solver is given.
-    fn problem(&self) -> Problem<2>;
+    fn posed(&self) -> Posed;
 
     /// The sides as run.
     fn boundary(&self) -> &BoundarySpec;
@@ -47,7 +47,7 @@ pub trait Scene: Debug + Send + Sync {
 
     /// The scene with sides so far away that nothing comes back, where what is true has to be solved
     /// for; see [`crate::certified`].
-    fn extended(&self) -> Option<Problem<2>> {
+    fn extended(&self) -> Option<Posed> {
         None
     }
 
@@ -214,8 +214,8 @@ pub struct Reference {
     pub evidence: Evidence,
     /// Displacement or velocity.
     pub quantity: Quantity,
-    /// One entry a receiver: name, and x and y components at the asked times.
-    pub receivers: Vec<(String, [Vec<f64>; 2])>,
+    /// One entry a receiver: name, and a component for each axis at the asked times.
+    pub receivers: Vec<(String, Vec<Vec<f64>>)>,
     /// Separate pulses with silence between them, so that arrivals can be timed.
     pub pulses: bool,
 }

@@ -26,7 +26,7 @@ impl GridSpec {
     }
 
     /// Edges (m) of the cells that fit a body.
-    pub fn cell(&self, body: &Aabb<2>) -> [f64; 2] {
+    pub fn cell<const D: usize>(&self, body: &Aabb<D>) -> [f64; D] {
         fitted_cell(body, edges(self.h_m, self.aspect()))
     }
 }
@@ -177,6 +177,14 @@ pub struct ReceiverSpec {
     pub x_m: f64,
     /// Place (m).
     pub y_m: f64,
+    /// Place (m); 0 in the plane.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub z_m: f64,
+}
+
+/// What is left out of a table.
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
 }
 
 impl ReceiverSpec {
@@ -186,14 +194,16 @@ impl ReceiverSpec {
             name: name.to_owned(),
             x_m,
             y_m,
+            z_m: 0.0,
         }
     }
 
-    /// The solver's receiver.
-    pub fn probe(&self) -> Receiver<2> {
+    /// The solver's receiver, with as many coordinates as there are dimensions.
+    pub fn probe<const D: usize>(&self) -> Receiver<D> {
+        let place = [self.x_m, self.y_m, self.z_m];
         Receiver {
             name: self.name.clone(),
-            place: [self.x_m, self.y_m],
+            place: std::array::from_fn(|axis| place[axis]),
         }
     }
 }
@@ -209,6 +219,12 @@ pub struct BoundarySpec {
     pub bottom: SideMethod,
     /// y largest.
     pub top: SideMethod,
+    /// z smallest; in three dimensions alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub back: Option<SideMethod>,
+    /// z largest; in three dimensions alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub front: Option<SideMethod>,
 }
 
 impl BoundarySpec {
@@ -220,14 +236,29 @@ impl BoundarySpec {
         ]
     }
 
-    /// Sides by name.
-    pub fn named(&self) -> [(&'static str, &SideMethod); 4] {
-        [
+    /// The same in three dimensions; sides that are not named are free.
+    pub fn sides_in_space(&self) -> [[SideMethod; 2]; 3] {
+        let [across, up] = self.sides();
+        let through = [&self.back, &self.front].map(|side| {
+            let free = || SideMethod::new("free");
+            side.clone().unwrap_or_else(free)
+        });
+        [across, up, through]
+    }
+
+    /// Sides by name, axis by axis, the lower end first.
+    pub fn named(&self) -> Vec<(&'static str, &SideMethod)> {
+        let plane = [
             ("left", &self.left),
             ("right", &self.right),
             ("bottom", &self.bottom),
             ("top", &self.top),
-        ]
+        ];
+        let through = [("back", &self.back), ("front", &self.front)];
+        let through = through
+            .into_iter()
+            .filter_map(|(name, side)| Some((name, side.as_ref()?)));
+        plane.into_iter().chain(through).collect()
     }
 }
 
@@ -281,7 +312,7 @@ pub const NUMERICS: &[Field] = &[
     Field::new(
         "points.per_cell",
         Kind::Whole(1, 100),
-        "points in a cell, all directions together: a square",
+        "points in a cell, all directions together: a square, or a cube in three dimensions",
     ),
     Field::new(
         "points.face_gap",
@@ -349,4 +380,10 @@ pub const PROBES_AND_SIDES: &[Field] = &[
     Field::new("boundary.right", Kind::Side, "x largest"),
     Field::new("boundary.bottom", Kind::Side, "y smallest"),
     Field::new("boundary.top", Kind::Side, "y largest"),
+];
+
+/// Sides of a scene in three dimensions beside those.
+pub const SIDES_IN_SPACE: &[Field] = &[
+    Field::new("boundary.back", Kind::Side, "z smallest"),
+    Field::new("boundary.front", Kind::Side, "z largest"),
 ];

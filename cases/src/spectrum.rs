@@ -146,8 +146,13 @@ pub fn measure(runs: &[Run], grid: &Grid, folder: &Path, jobs: usize) -> Result<
     let own = points.flat_map(|point| point.pick(runs).0);
     let wanted: Vec<&Run> = own.filter(|run| has_layer(run)).collect();
     let one = |run: &&Run| {
-        let found = spectrum(&small(&run.prepared.scene.problem()));
-        (timing::key(run), found.map_err(|error| error.to_string()))
+        let plane = run.prepared.scene.posed().plane();
+        let plane = plane.ok_or_else(|| "spectra are found of plane scenes alone".to_owned());
+        let found = plane.and_then(|problem| {
+            let found = spectrum(&small(&problem));
+            found.map_err(|error| error.to_string())
+        });
+        (timing::key(run), found)
     };
     let spectra: Spectra =
         pool(jobs)?.install(|| wanted.par_iter().with_max_len(1).map(one).collect());

@@ -2,13 +2,12 @@
 //! machine with others and sample fields; these do not.
 
 use crate::error::CaseError;
+use crate::posed::{Posed, either};
 use crate::progress::{Progress, stopped};
 use crate::runner::Run;
 use crate::store::{json, read_json, write_file};
 use anechoic_reports::tradeoff::Timing;
-use anechoic_solver::problem::Problem;
 use anechoic_solver::record::Status;
-use anechoic_solver::solve;
 use cpu_time::ThreadTime;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -132,18 +131,20 @@ pub fn seconds(cpu_s: f64, repeats: usize) -> f64 {
 }
 
 /// The problem without what is sampled for pictures.
-fn bare(run: &Run) -> Problem<2> {
-    let mut problem = run.prepared.scene.problem();
-    problem.probes.lines.clear();
-    problem.probes.snapshot_times.clear();
-    problem
+fn bare(run: &Run) -> Posed {
+    let mut posed = run.prepared.scene.posed();
+    either!(&mut posed, problem => {
+        problem.probes.lines.clear();
+        problem.probes.snapshot_times.clear();
+    });
+    posed
 }
 
 /// CPU time (s) of one solve; none if it failed or was stopped.
-fn once(problem: &Problem<2>, run: &Run, progress: &Progress) -> Option<f64> {
+fn once(problem: &Posed, run: &Run, progress: &Progress) -> Option<f64> {
     let monitor = progress.monitor(run.prepared.bill.points);
     let start = ThreadTime::now();
-    let outcome = solve(problem, &monitor).ok()?;
+    let outcome = problem.solve(&monitor).ok()?;
     let time = start.elapsed().as_secs_f64();
     (outcome.record.status == Status::Complete).then_some(time)
 }

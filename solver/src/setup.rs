@@ -221,7 +221,7 @@ fn context<'a, const D: usize>(
         velocity: problem.flow.velocity,
         transfer: problem.transfer,
         mass: problem.mass,
-        explicit: problem.scheme == Scheme::Explicit,
+        explicit_dt: (problem.scheme == Scheme::Explicit).then_some(problem.dt),
         end_time: problem.end_time,
         points,
         layer,

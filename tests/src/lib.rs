@@ -3,6 +3,7 @@
 
 pub mod dense;
 pub mod program;
+pub mod space;
 pub mod study;
 
 pub mod twin;
@@ -10,10 +11,11 @@ mod twin_shift;
 
 use anechoic_solver::Monitor;
 use anechoic_solver::boundary::SideMethod;
+use anechoic_solver::flow::{Dimension, Space};
 use anechoic_solver::probe::{Probes, Receiver};
 use anechoic_solver::problem::{
-    Aabb, BasisKind, Drive, Elastic, MassKind, PointMode, Problem, Scheme, Side, SolverKind,
-    Transfer,
+    Aabb, BasisKind, Drive, Elastic, FlowSetup, MassKind, PointMode, Problem, Scheme, Side,
+    SolverKind, Transfer,
 };
 use anechoic_solver::record::Record;
 use anechoic_solver::wavelet::{Pulse, Wavelet};
@@ -55,7 +57,10 @@ impl Monitor for Unwatched {
 ///
 /// # Panics
 /// When the problem cannot be set up or the run fails.
-pub fn solved(problem: &Problem<2>) -> Record {
+pub fn solved<const D: usize>(problem: &Problem<D>) -> Record
+where
+    Space: Dimension<D>,
+{
     let outcome = anechoic_solver::solve(problem, &Unwatched).expect("the problem is well put");
     assert_eq!(outcome.error, None);
     outcome.record
@@ -85,6 +90,7 @@ pub fn block(transfer: Transfer, point_mode: PointMode) -> Problem<2> {
             poissons_ratio: 0.3,
             density: 2.0,
         },
+        flow: FlowSetup::default(),
         sides: [[free(), free()], [free(), free()]],
         drives: Vec::new(),
         probes: Probes {

@@ -30,7 +30,12 @@ impl Subject {
     /// # Errors
     /// A scene without waves.
     pub fn of(scene: &Prepared) -> Result<Self, AtlasError> {
-        let like = scene.scene.problem();
+        let Some(like) = scene.scene.posed().plane() else {
+            return Err(AtlasError::Unsupported {
+                field: "case",
+                reason: "it is three-dimensional, and the atlas is of plane strain",
+            });
+        };
         if like.scheme == Scheme::QuasiStatic {
             return Err(AtlasError::Unsupported {
                 field: "time.scheme",

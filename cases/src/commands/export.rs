@@ -47,7 +47,12 @@ pub fn export(scene: &Prepared, folder: &Path, results: &Path) -> Result<Exporte
             folder.display()
         ))
     })?;
-    let problem = scene.scene.problem();
+    let Some(problem) = scene.scene.posed().plane() else {
+        return Err(CaseError::Usage(format!(
+            "--export: {} is three-dimensional, and meshes are written for plane strain alone",
+            scene.info.name
+        )));
+    };
     let steps = scene.bill.steps;
     let times: Vec<f64> = (0..=steps).map(|step| step as f64 * problem.dt).collect();
     let reference = without_echo(scene, &problem, &times, results)?;

@@ -176,7 +176,7 @@ fn differences(base: &Run, other: &Run) -> String {
 }
 
 fn step(run: &Run) -> f64 {
-    run.prepared.scene.problem().dt
+    run.prepared.scene.posed().dt()
 }
 
 /// Does the extended run serve to the end of the base?

@@ -87,16 +87,16 @@ impl<'a> Levels<'a> {
         let floors = reference_shares(finest, references);
         let mut curves = Vec::new();
         for metric in ERRORS {
-            for receiver in &finest.prepared.scene.problem().probes.receivers {
+            for (receiver, _) in finest.prepared.scene.posed().receivers() {
                 let errors = self.levels.iter();
-                let errors = errors.map(|(_, _, level)| error(level, metric, &receiver.name));
-                let curve = Curve::new(metric, &receiver.name, &levels, errors.collect());
-                let mut curve = curve.with_plateau(floor(&floors, metric, &receiver.name));
+                let errors = errors.map(|(_, _, level)| error(level, metric, &receiver));
+                let curve = Curve::new(metric, &receiver, &levels, errors.collect());
+                let mut curve = curve.with_plateau(floor(&floors, metric, &receiver));
                 if let Some(budget) = budget {
                     let cause = cause(self.field);
                     let plateau = curve.plateau.take();
                     curve.plateau =
-                        plateau.map(|p| p.with_budget(budget, cause, metric, &receiver.name));
+                        plateau.map(|p| p.with_budget(budget, cause, metric, &receiver));
                 }
                 curves.push(curve);
             }

@@ -164,7 +164,7 @@ fn measure(
     if run.manifest.scored.is_none() {
         energies(run, &windows, numbers);
     }
-    let problem = scene.problem();
+    let problem = scene.posed();
     let mut truths = references.of(run)?;
     if run.manifest.judged_as().is_none() {
         // Of another program nobody said what its boundary is a model of.
@@ -251,9 +251,13 @@ fn reference_floor(
     let scores = traces(&standard.record, Quantity::Displacement).and_then(|standard| {
         // A run that departs from silence by the floor, receiver by receiver.
         let times = run.record.receivers.times.clone();
-        let constant = |trace: &Trace, value: f64| Trace {
-            name: trace.name.clone(),
-            components: vec![vec![value; times.len()], vec![0.0; times.len()]],
+        let constant = |trace: &Trace, value: f64| {
+            let mut components = vec![vec![0.0; times.len()]; trace.components.len()];
+            components[0].fill(value);
+            Trace {
+                name: trace.name.clone(),
+                components,
+            }
         };
         let of = |value: &dyn Fn(&str) -> f64| {
             let made = standard

@@ -2,6 +2,7 @@
 
 use super::growth::unloaded;
 use super::{Judged, energies, rows::rows_of};
+use crate::posed::either;
 use crate::runner::Run;
 use crate::spectrum::Spectra;
 use crate::sweep::{Grid, Part, Point};
@@ -149,8 +150,9 @@ fn at(point: &Point, runs: &[Run], rows: &mut Vec<Row>) -> StabilityPoint {
             unit: "1".to_owned(),
             against: None,
         };
-        let problem = run.prepared.scene.problem();
-        let claims: Vec<Claim> = is_stable_by_theory(&problem)
+        let problem = run.prepared.scene.posed();
+        let by_theory = either!(&problem, problem => is_stable_by_theory(problem));
+        let claims: Vec<Claim> = by_theory
             .then(|| Claim {
                 method: method.clone(),
                 metric: STABLE.to_owned(),
@@ -191,7 +193,7 @@ pub(super) fn outcome(run: &Run) -> Outcome {
             Outcome::NotConverged(why.clone())
         }
         Status::Failed(why) => Outcome::Diverged(why.clone()),
-        Status::Complete => match unloaded(run, &run.prepared.scene.problem()) {
+        Status::Complete => match unloaded(run, &run.prepared.scene.posed()) {
             None => overflown(run),
             Some(energy) => of_energy(&energy),
         },
@@ -221,7 +223,7 @@ fn of_energy(energy: &Unloaded) -> Outcome {
 }
 
 /// Does a theorem say that energy cannot grow?
-fn is_stable_by_theory(problem: &Problem<2>) -> bool {
+fn is_stable_by_theory<const D: usize>(problem: &Problem<D>) -> bool {
     let kept = problem.point_mode == PointMode::Frozen && problem.transfer == Transfer::Keep;
     let passive = |method: &str| find(method).is_some_and(|info| info.passive);
     let sides = problem.sides.iter().flatten();

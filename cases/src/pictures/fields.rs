@@ -3,6 +3,7 @@
 use super::{NO_ECHO, Picture, PictureError, receivers};
 use crate::checks::inner_thickness;
 use crate::judge::references::References;
+use crate::posed::either;
 use crate::runner::Run;
 use anechoic_reports::plot::{Corners, Field, Guide, PlotError, SnapshotPlot, SpaceTimePlot};
 use anechoic_reports::ranking::Ranking;
@@ -30,8 +31,8 @@ pub(super) fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError>
     let quantity = format!("velocity {}", field.name.trim_start_matches('v'));
     let mut guides: Vec<Guide> = receivers(runs[0])
         .into_iter()
-        .map(|(label, [_, y])| Guide {
-            position: y,
+        .map(|(label, place)| Guide {
+            position: place[1],
             label,
             method: None,
         })
@@ -40,7 +41,8 @@ pub(super) fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError>
     guides.extend(runs.iter().filter_map(|run| {
         let thickness = inner_thickness(&run.prepared.scene.boundary().bottom);
         (thickness > 0.0).then(|| Guide {
-            position: run.prepared.scene.problem().target.lower[1] + thickness,
+            position: either!(run.prepared.scene.posed(), problem => problem.target.lower[1])
+                + thickness,
             label: "layer".into(),
             method: Some(run.manifest.method.clone()),
         })
@@ -155,11 +157,9 @@ fn flowing(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
         Some(fields.map(|f| (snapshot.time, f)))
     });
     let rows: Vec<(f64, Vec<Field>)> = rows.collect::<Result<_, _>>()?;
-    let target = first.prepared.scene.problem().target;
-    let [low, high] = rows
-        .first()
-        .and_then(|(_, fields)| ends(fields.first()?))
-        .unwrap_or([target.lower, target.upper]);
+    let Some([low, high]) = rows.first().and_then(|(_, fields)| ends(fields.first()?)) else {
+        return Ok(None);
+    };
     let drawing = SnapshotPlot {
         quantity: "|v|".into(),
         unit: "m/s".into(),
@@ -190,16 +190,19 @@ pub(super) fn at(snapshots: &[Snapshot], time: f64) -> Option<&Snapshot> {
     snapshots.iter().find(|s| (s.time - time).abs() < 1e-6)
 }
 
+/// The size of the displacement; of a body in space it is shown on the back side, a plane of symmetry, which
+/// nothing crosses.
 pub(super) fn magnitude(snapshot: &Snapshot) -> Result<Field, PlotError> {
     Field::magnitude(snapshot, &["ux", "uy"])
 }
 
-/// All material of a run (m).
+/// All material of a run (m), across and up.
 pub(super) fn mesh(run: &Run) -> Corners {
-    let problem = run.prepared.scene.problem();
     // What was run was set up before.
-    let all = material_box(&problem).unwrap_or(problem.target);
-    [all.lower, all.upper]
+    either!(run.prepared.scene.posed(), problem => {
+        let all = material_box(&problem).unwrap_or(problem.target);
+        [all.lower, all.upper].map(|corner| [corner[0], corner[1]])
+    })
 }
 
 /// A box grown by a share of its width, but not beyond its top, where nothing is.

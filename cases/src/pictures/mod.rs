@@ -191,7 +191,7 @@ fn series(runs: &[&Run], reference: Option<&Reference>) -> Result<Picture, Pictu
     let drawing = TracePlot {
         quantity: match quantity {
             Quantity::Displacement => "|u|".to_owned(),
-            Quantity::Velocity => format!("velocity {}", ["x", "y"][axis.min(1)]),
+            Quantity::Velocity => format!("velocity {}", ["x", "y", "z"][axis.min(2)]),
         },
         unit: unit.to_owned(),
         panels,
@@ -445,13 +445,8 @@ fn strongest(traces: &Traces) -> usize {
 }
 
 /// Names and places (m) of the receivers.
-fn receivers(run: &Run) -> Vec<(String, [f64; 2])> {
-    let probes = run.prepared.scene.problem().probes;
-    probes
-        .receivers
-        .into_iter()
-        .map(|r| (r.name, r.place))
-        .collect()
+fn receivers(run: &Run) -> Vec<(String, Vec<f64>)> {
+    run.prepared.scene.posed().receivers()
 }
 
 /// A receiver's title.
@@ -461,6 +456,10 @@ fn place(run: &Run, name: &str) -> String {
         .find(|(receiver, _)| receiver == name)
         .map_or_else(
             || name.to_owned(),
-            |(name, [x, y])| format!("{name} (x = {x} m, y = {y} m)"),
+            |(name, place)| {
+                let along = ["x", "y", "z"].iter().zip(&place);
+                let along: Vec<String> = along.map(|(axis, x)| format!("{axis} = {x} m")).collect();
+                format!("{name} ({})", along.join(", "))
+            },
         )
 }

@@ -22,6 +22,7 @@ mod paper;
 mod values;
 
 use crate::checks::Checks;
+use crate::posed::Posed;
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
 use anechoic_solver::probe::Probes;
@@ -111,10 +112,9 @@ impl Compression1d {
             t0: 0.0,
         }
     }
-}
 
-impl Scene for Compression1d {
-    fn problem(&self) -> Problem<2> {
+    /// What the solver is given.
+    pub fn problem(&self) -> Problem<2> {
         let steps = self.time.end_s / self.dt();
         // Some 250 lines and 1000 energies make smooth pictures at any step size.
         let every = |samples: f64| (steps / samples).ceil().max(1.0) as usize;
@@ -147,6 +147,12 @@ impl Scene for Compression1d {
             solver: self.solver.kind,
             rel_tol: self.solver.rel_tol,
         }
+    }
+}
+
+impl Scene for Compression1d {
+    fn posed(&self) -> Posed {
+        self.problem().into()
     }
 
     fn boundary(&self) -> &BoundarySpec {

@@ -27,6 +27,7 @@ mod values;
 use crate::certified::causality::{serves_until, with_buffers};
 use crate::checks::Checks;
 use crate::half_space::{TARGET_AND_SOURCE, half_space_scene};
+use crate::posed::Posed;
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
 use anechoic_solver::problem::Problem;
@@ -68,13 +69,18 @@ impl Lamb {
     fn dt(&self) -> f64 {
         self.time.dt_s.unwrap_or(STEP_PER_METRE * self.cell_m())
     }
-}
 
-impl Scene for Lamb {
-    fn problem(&self) -> Problem<2> {
+    /// What the solver is given.
+    pub fn problem(&self) -> Problem<2> {
         let end = self.time.end_s;
         let problem = self.0.problem(self.dt(), vec![0.5 * end, end]);
         with_buffers(&problem, 1.0)
+    }
+}
+
+impl Scene for Lamb {
+    fn posed(&self) -> Posed {
+        self.problem().into()
     }
 
     fn boundary(&self) -> &BoundarySpec {

@@ -22,6 +22,7 @@ mod values;
 
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
+use crate::posed::Posed;
 use crate::scene::{
     self, Beside, Curve, OwnNumber, OwnPicture, Reference, Scene, SceneClaim, SceneInfo, Window,
 };
@@ -294,10 +295,9 @@ impl Mudmat {
             reference_rate: self.material.reference_rate_1_s,
         })
     }
-}
 
-impl Scene for Mudmat {
-    fn problem(&self) -> Problem<2> {
+    /// What the solver is given.
+    pub fn problem(&self) -> Problem<2> {
         let (dt, end) = (self.dt(), self.time.end_s);
         let nu = self.material.elastic.nu;
         let every = |samples: f64| (end / dt / samples).ceil().max(1.0) as usize;
@@ -342,6 +342,12 @@ impl Scene for Mudmat {
             solver: SolverKind::Auto,
             rel_tol: 1e-10,
         }
+    }
+}
+
+impl Scene for Mudmat {
+    fn posed(&self) -> Posed {
+        self.problem().into()
     }
 
     fn boundary(&self) -> &BoundarySpec {

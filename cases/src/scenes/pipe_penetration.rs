@@ -21,6 +21,7 @@ mod values;
 
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
+use crate::posed::Posed;
 use crate::scene::{
     self, Beside, Curve, OwnNumber, OwnPicture, Reference, Scene, SceneClaim, SceneInfo, Window,
 };
@@ -234,10 +235,9 @@ impl PipePenetration {
             },
         }
     }
-}
 
-impl Scene for PipePenetration {
-    fn problem(&self) -> Problem<2> {
+    /// What the solver is given.
+    pub fn problem(&self) -> Problem<2> {
         let (dt, end) = (self.dt(), self.end_s());
         Problem {
             target: self.soil(),
@@ -276,6 +276,12 @@ impl Scene for PipePenetration {
             solver: SolverKind::Auto,
             rel_tol: 1e-10,
         }
+    }
+}
+
+impl Scene for PipePenetration {
+    fn posed(&self) -> Posed {
+        self.problem().into()
     }
 
     fn boundary(&self) -> &BoundarySpec {

@@ -5,6 +5,7 @@ mod atlas;
 mod growth;
 mod operator;
 mod pml;
+mod pml_space;
 mod published_layer;
 mod static_load;
 mod sweep;

@@ -155,7 +155,7 @@ fn truth() -> Vec<Vec<f64>> {
     let references = scene.references(&times).expect("Lamb's problem");
     let receivers = references[0].receivers.iter();
     receivers
-        .flat_map(|(_, [x, y])| [x.clone(), y.clone()])
+        .flat_map(|(_, components)| components.clone())
         .collect()
 }
 

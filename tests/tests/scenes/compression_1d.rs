@@ -109,7 +109,7 @@ fn refined(method: &str, wavelet: &str) -> Finished {
         "4 m do not divide 50 m"
     );
     for (run, level) in finished.study.runs.iter().zip(levels) {
-        let dt = run.prepared.scene.problem().dt;
+        let dt = run.prepared.scene.posed().dt();
         assert!((dt - 0.005 * level.size).abs() < 1e-12);
     }
     print_claims(&finished.rows);

@@ -137,7 +137,7 @@ fn a_reference_does_not_serve_after_its_time() {
 #[test]
 fn nothing_comes_back_before_the_certificate_says() {
     // The standard run is an extended domain of 1000 m: equal to the reference until it is not.
-    let problem = gate("fixed", &[]).scene.problem();
+    let problem = gate("fixed", &[]).scene.posed().plane().unwrap();
     let until = serves_until(&problem).unwrap();
     let mut short = problem.clone();
     short.end_time = until + 1.5;

@@ -9,7 +9,6 @@ use crate::prepare::{Prepared, Target};
 use crate::study::Kind;
 use crate::sweep::{Grid, Part, Setting};
 use anechoic_solver::boundary::{MethodInfo, Rungs, find};
-use anechoic_solver::problem::Drive;
 
 /// Steps over the time that the fastest wave takes through a cell.
 const STEPS: [f64; 7] = [0.001, 0.01, 0.1, 1.0, 5.0, 20.0, 100.0];
@@ -200,11 +199,8 @@ fn has(scene: &Prepared, field: &str) -> bool {
 
 /// A run of `count` steps of `dt` (s), with a pulse that fits.
 fn timed(scene: &Prepared, label: String, dt: f64, count: f64) -> Setting {
-    let problem = scene.scene.problem();
     let end = count * dt;
-    let pulse = problem.drives.first().map(|drive| match drive {
-        Drive::SideVelocity { pulse, .. } | Drive::PointForce { pulse, .. } => *pulse,
-    });
+    let pulse = scene.scene.posed().pulses().first().copied();
     let mut sets = vec![format!("time.dt_s={dt}"), format!("time.end_s={end}")];
     if let Some(pulse) = pulse {
         // No shorter than some steps, and over in the first quarter of the run.
@@ -223,8 +219,8 @@ fn timed(scene: &Prepared, label: String, dt: f64, count: f64) -> Setting {
 
 /// Steps from a thousandth to a hundred times the time of the fastest wave through a cell.
 fn steps(scene: &Prepared) -> Vec<Setting> {
-    let problem = scene.scene.problem();
-    let cell = scene.scene.cell_m() / problem.material.p_speed();
+    let problem = scene.scene.posed();
+    let cell = scene.scene.cell_m() / problem.material().p_speed();
     let most = if scene.profile == "gate" {
         MOST[0]
     } else {
@@ -232,7 +228,7 @@ fn steps(scene: &Prepared) -> Vec<Setting> {
     };
     let of = |factor: &f64| {
         let dt = factor * cell;
-        let count = (problem.end_time / dt).clamp(FEWEST, most).round();
+        let count = (problem.end_time() / dt).clamp(FEWEST, most).round();
         let setting = timed(scene, format!("dt = {factor} h/c_p"), dt, count);
         Setting {
             value: Some(*factor),
@@ -247,7 +243,7 @@ fn long(scene: &Prepared, count: f64) -> Setting {
     let mut setting = timed(
         scene,
         format!("{count} steps"),
-        scene.scene.problem().dt,
+        scene.scene.posed().dt(),
         count,
     );
     // The pulse stays what it is.

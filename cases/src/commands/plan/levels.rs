@@ -7,6 +7,7 @@ use crate::error::{CaseError, Complaint, Origin};
 use crate::filter::Filter;
 use crate::judge::{BUDGET, CAUSES, CERTIFIER, ERRORS, budget_label};
 use crate::over::{CELLS, Over, POINTS, STEP, cause, level_in};
+use crate::posed::either;
 use crate::prepare::{Prepared, Target};
 use crate::resume::folder;
 use crate::study::Kind;
@@ -138,27 +139,28 @@ type Varied = (&'static str, Option<&'static str>, Vec<String>);
 
 /// What is varied for a budget, one thing at a time; the step stays where it would follow the cells.
 fn varied(base: &Prepared) -> Vec<Varied> {
-    let problem = base.scene.problem();
+    let posed = base.scene.posed();
+    let dt = posed.dt();
     let mut all = vec![
         (
             cause(CELLS),
             None,
             vec![
                 format!("{CELLS}={}", 0.5 * base.scene.cell_m()),
-                format!("{STEP}={}", problem.dt),
+                format!("{STEP}={dt}"),
             ],
         ),
         (
             cause(STEP),
             None,
-            vec![format!("{STEP}={}", FINER_STEP * problem.dt)],
+            vec![format!("{STEP}={}", FINER_STEP * dt)],
         ),
     ];
-    let more = (problem.points_per_cell.isqrt() + 1).pow(2);
+    let more = posed.with_points_more();
     if more <= MOST_POINTS {
         all.push((cause(POINTS), None, vec![format!("{POINTS}={more}")]));
     }
-    if problem.transfer != Transfer::Keep {
+    if either!(&posed, problem => problem.transfer) != Transfer::Keep {
         let kept = ["points.mode=frozen", "points.transfer=keep"].map(str::to_owned);
         all.push(("transfer", None, kept.to_vec()));
     }

@@ -67,7 +67,7 @@ pub(super) fn references(
             .map(|receiver| {
                 let motion = motion(scene, receiver, times, finer * panel(&scene.source.pulse()))
                     .map_err(|reason| format!("receiver {}: {reason}", receiver.name))?;
-                Ok((receiver.name.clone(), motion))
+                Ok((receiver.name.clone(), motion.to_vec()))
             })
             .collect::<Result<_, String>>()?,
         // P, S and Rayleigh waves overlap.

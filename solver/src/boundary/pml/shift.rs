@@ -41,6 +41,14 @@ fn asked_shift(method: &SideMethod) -> (Option<f64>, &str) {
     (given, method.choice(&METHOD, "static_load"))
 }
 
+/// Does a side ask for a shift at all?
+pub(super) fn asks_for_shift(method: &SideMethod) -> bool {
+    match asked_shift(method) {
+        (Some(alpha), _) => alpha > 0.0,
+        (None, word) => word == "follow",
+    }
+}
+
 /// Refuses a layer whose sides do not ask for the same shift.
 pub(super) fn one_shift<const D: usize>(
     problem: &Problem<D>,
