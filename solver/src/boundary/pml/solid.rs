@@ -319,7 +319,11 @@ impl<const D: usize> RegionKernel<D> for Solid<D> {
             self.memory.as_flattened_mut().as_flattened_mut(),
             self.integral.as_flattened_mut().as_flattened_mut(),
         ];
-        all.extend(self.corners.iter_mut().map(|c| c.integral.as_flattened_mut()));
+        all.extend(
+            self.corners
+                .iter_mut()
+                .map(|c| c.integral.as_flattened_mut()),
+        );
         all
     }
 
