@@ -11,16 +11,16 @@ type Measured = (&'static str, [f64; 2]);
 
 /// On the gate's cube of 10 cells.
 const GATE: &[Measured] = &[
-    ("A", [0.00337, 0.00525]),
-    ("B", [0.00484, 0.00485]),
-    ("C", [0.00822, 0.0133]),
+    ("A", [0.00248, 0.00386]),
+    ("B", [0.00265, 0.00277]),
+    ("C", [0.00575, 0.00970]),
 ];
 
 /// On the cube of 20 cells, points at rest.
 const WHOLE: &[Measured] = &[
-    ("A", [0.00270, 0.00618]),
-    ("B", [0.00463, 0.00629]),
-    ("C", [0.00571, 0.00889]),
+    ("A", [0.00241, 0.00554]),
+    ("B", [0.00458, 0.00629]),
+    ("C", [0.00484, 0.00776]),
 ];
 
 /// The prototype's worst receiver on a quarter of 20^3 cells with 8 cells of layer.
@@ -47,7 +47,7 @@ pub(super) fn claims(scene: &CubeSource) -> Vec<SceneClaim> {
             claim(
                 (*group).to_owned(),
                 within(*mean),
-                "measured, with a quarter to either side: without psi in the edges the mean is half as large again",
+                "measured, with a quarter to either side: without psi in the edges the means are 0.34, 0.48 and 0.82 %",
             ),
             claim(
                 format!("{group}:worst"),
@@ -59,7 +59,7 @@ pub(super) fn claims(scene: &CubeSource) -> Vec<SceneClaim> {
             claim(
                 (*group).to_owned(),
                 Accept::at_most(1.25 * mean),
-                "measured with points at rest, and a quarter above; the mean of all receivers is 0.39 %, a prototype's 0.48 %",
+                "measured with points at rest, and a quarter above; the mean of all receivers is 0.36 %, a prototype's 0.48 %",
             ),
             claim(
                 format!("{group}:worst"),
