@@ -186,8 +186,8 @@ fn the_printed_poissons_ratio_makes_a_slow_column() {
     let speed = finished.study.runs[0]
         .prepared
         .scene
-        .problem()
-        .material
+        .posed()
+        .material()
         .p_speed();
     assert!((speed - 17.6).abs() < 0.05, "{speed}");
 }

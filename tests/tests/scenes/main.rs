@@ -3,6 +3,7 @@
 mod bases;
 mod budget;
 mod compression_1d;
+mod cube_source;
 mod goodness;
 mod lamb;
 mod mutations;

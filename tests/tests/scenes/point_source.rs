@@ -16,10 +16,10 @@ use anechoic::commands::{
     Finished, Options, compare, plan_ablation, plan_compare, plan_run, reference,
 };
 use anechoic::error::exit;
+use anechoic::posed::Posed;
 use anechoic::prepare::{Prepared, Request, Target};
 use anechoic_reference::claim::Evidence;
 use anechoic_reports::row::{Row, Verdict};
-use anechoic_solver::problem::Problem;
 use anechoic_tests::solved;
 
 const CASE: &str = "point-source";
@@ -35,7 +35,7 @@ fn gate(method: &str, sets: &[&str]) -> Prepared {
     target.prepare(Some(method)).expect("the scene is well put")
 }
 
-fn extended() -> Problem<2> {
+fn extended() -> Posed {
     gate("fixed", &[])
         .scene
         .extended()
