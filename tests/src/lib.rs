@@ -12,8 +12,8 @@ use anechoic_solver::Monitor;
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::probe::{Probes, Receiver};
 use anechoic_solver::problem::{
-    Aabb, BasisKind, Drive, Elastic, MassKind, PointMode, Problem, Scheme, Side, SolverKind,
-    Transfer,
+    Aabb, BasisKind, Drive, Elastic, FlowSetup, MassKind, PointMode, Problem, Scheme, Side,
+    SolverKind, Transfer,
 };
 use anechoic_solver::record::Record;
 use anechoic_solver::wavelet::{Pulse, Wavelet};
@@ -83,6 +83,7 @@ pub fn block(transfer: Transfer, point_mode: PointMode) -> Problem<2> {
             poissons_ratio: 0.3,
             density: 2.0,
         },
+        flow: FlowSetup::default(),
         sides: [[free(), free()], [free(), free()]],
         drives: Vec::new(),
         probes: Probes {
