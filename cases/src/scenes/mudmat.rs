@@ -255,12 +255,13 @@ impl Mudmat {
     }
 
     fn intruder(&self) -> Intruder {
-        let half = [0.5 * self.mudmat.length_m, 0.5 * self.mudmat.exposed_m];
+        // as far below the base as above it: under a rounded foot soil would be squeezed through
+        let half = [0.5 * self.mudmat.length_m, self.mudmat.exposed_m];
         Intruder {
             name: "mudmat".to_owned(),
             body: RigidBody {
                 shape: Shape::Rectangle {
-                    centre: half,
+                    centre: [half[0], 0.0],
                     half,
                     corner_radius: (0.5 * self.h()).min(half[1]).min(half[0]),
                 },

@@ -3,9 +3,16 @@
 mod bases;
 mod budget;
 mod compression_1d;
+mod explicit_column;
+mod explicit_errors;
+mod explicit_point_source;
+mod explicit_transfer;
 mod goodness;
 mod lamb;
+mod mudmat;
 mod mutations;
+mod pipe;
 mod point_source;
+mod rigid;
 mod solver;
 mod transfer;
