@@ -101,7 +101,7 @@ fn twenty_thousand_steps_only_decay() {
         let record = solved(&problem);
         assert_eq!(record.cost.steps, 20_000);
         let all = windows(&record, 1.0, 10);
-        println!("nu = {nu}: energy {all:.1e?} J");
+        println!("nu = {nu}: energy {:.1e} .. {:.1e} J", all[0], all[9]);
         assert!(decays(&all), "{all:?}");
         assert!(all[9] < 1e-5 * all[0]);
     }

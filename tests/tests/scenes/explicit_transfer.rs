@@ -57,18 +57,27 @@ fn loss(record: &Record, from: f64) -> f64 {
     (mean(first) / mean(last)).ln() / (times[last] - times[first])
 }
 
-/// Analytic: a closed elastic box keeps its energy. The bounds for `affine` are those of implicit steps
-/// (0.003/s of a sine, 0.01/s of a Ricker wavelet); the others stand beside it in their order.
+/// Analytic: a closed elastic box keeps its energy. Explicit steps move points by nodes whose last kick is
+/// not filtered yet, so that what they lose goes with the step: the bounds of `affine` in implicit steps
+/// (0.003/s of a sine, 0.01/s of a Ricker wavelet) hold at half of S21's step; at the whole of it the
+/// wavelet's is half as much again. The other transfers stand beside it in their order.
 #[test]
 fn affine_keeps_the_energy_of_a_closed_box_in_explicit_steps() {
     for (ricker, most) in [(false, 0.003), (true, 0.01)] {
         let rates = TRANSFERS.map(|transfer| loss(&solved(&closed_box(transfer, ricker)), 1.2));
-        println!("ricker {ricker}: loss of affine, flip, flip + 0.05 pic, pic {rates:.4?} /s");
+        let mut short = closed_box(TRANSFERS[0], ricker);
+        short.dt *= 0.5;
+        let short = loss(&solved(&short), 1.2);
+        println!(
+            "ricker {ricker}: loss of affine, flip, flip + 0.05 pic, pic {rates:.4?} /s; affine at half the step {short:.4}"
+        );
         let [affine, flip, share, pic] = rates;
-        assert!(affine > -5e-4 && affine <= most, "{affine}");
-        // flip alone shifts frequencies (the mass of its waves is 1/F) and takes nothing
-        assert!(flip.abs() < 0.01, "{flip}");
-        assert!(share > 10.0 * most && pic > 5.0 * share);
+        assert!(affine > 0.0 && affine <= 1.5 * most, "{affine}");
+        assert!(
+            short <= most && (0.3..0.7).contains(&(short / affine)),
+            "{short}"
+        );
+        assert!(flip > 10.0 * affine && share > 1.5 * flip && pic > 1.5 * share);
     }
 }
 
@@ -92,7 +101,9 @@ fn ringing(transfer: Transfer, share: f64) -> Problem<2> {
 /// Analytic. Points at the quarters of their cells send a wave of wave number k back to the nodes times
 /// F = 0.625 + 0.375 cos kh (point-source specification). A share eta of the nodes' velocity in every step
 /// then takes eta (1 - F) of it, so that the energy of a standing wave, half of it motion, falls at the
-/// rate g = eta (1 - F)/dt. Each k of the pulse falls at its own.
+/// rate eta (1 - F)/dt. Flip moves points by nodes whose last kick is not filtered yet, which adds
+/// (1 - F) dt a to the velocity F v of the way: damping of w^2 (1 - F) dt, for the share that is flip. Each k
+/// of the pulse falls at its own rate.
 fn closed_form(problem: &Problem<2>, share: f64, times: [f64; 2]) -> f64 {
     let (h, dt) = (problem.cell_size, problem.dt);
     let Drive::SideVelocity { pulse, .. } = &problem.drives[0] else {
@@ -109,7 +120,9 @@ fn closed_form(problem: &Problem<2>, share: f64, times: [f64; 2]) -> f64 {
                 im += pulse.value(s) * sine;
             }
             let kh = 2.0 * PI * f / problem.material.p_speed() * h;
-            let rate = share * 0.375 * (1.0 - kh.cos()) / dt;
+            let filtered = 0.375 * (1.0 - kh.cos());
+            let kicks = (1.0 - share) * (2.0 * PI * f).powi(2) * dt;
+            let rate = filtered * (share / dt + kicks);
             (re * re + im * im) * (-rate * t).exp()
         });
         energies.sum()
@@ -117,9 +130,23 @@ fn closed_form(problem: &Problem<2>, share: f64, times: [f64; 2]) -> f64 {
     (left(times[0]) / left(times[1])).ln()
 }
 
+/// Loss (natural logarithm) over one way down and up, and its times from the pulse's middle (s): the energy
+/// breathes as the wave is turned back at the ends, and is in one phase then.
+fn round_trip(problem: &Problem<2>) -> (f64, [f64; 2]) {
+    let record = solved(problem);
+    let (times, energy) = (&record.energy.times, record.energy.column("total").unwrap());
+    let trip = 2.0 * problem.target.upper[1] / problem.material.p_speed() / problem.dt;
+    let first = times.partition_point(|t| *t < 0.6);
+    let last = first + trip.round() as usize;
+    // filtered from when it is sent out
+    let since = [first, last].map(|k| times[k] - 0.25);
+    ((energy[first] / energy[last]).ln(), since)
+}
+
 #[test]
 fn a_share_of_pic_takes_what_its_filter_says() {
     for (transfer, share) in [
+        (Transfer::Flip, 0.0),
         (Transfer::Flip, 0.05),
         (Transfer::Flip, 0.2),
         (Transfer::Pic, 1.0),
@@ -130,14 +157,7 @@ fn a_share_of_pic_takes_what_its_filter_says() {
             share
         };
         let problem = ringing(transfer, of_flip);
-        let record = solved(&problem);
-        let times = &record.energy.times;
-        let energy = record.energy.column("total").unwrap();
-        let (first, last) = (times.partition_point(|t| *t < 0.7), energy.len() - 41);
-        let mean = |k: usize| energy[k..k + 40].iter().sum::<f64>() / 40.0;
-        let own = (mean(first) / mean(last)).ln();
-        // what is sent out at the pulse's middle has been filtered from then on
-        let since = [first, last].map(|k| times[k + 20] - 0.25);
+        let (own, since) = round_trip(&problem);
         let exact = closed_form(&problem, share, since);
         let period = 0.5 / (since[1] - since[0]);
         println!(
@@ -145,13 +165,12 @@ fn a_share_of_pic_takes_what_its_filter_says() {
             own * period,
             exact * period
         );
-        assert!((own / exact - 1.0).abs() < 0.05, "{own} {exact}");
+        assert!((own - exact).abs() < 0.05 * exact + 0.002, "{own} {exact}");
     }
     // along a line affine gives back what linear functions hold: it takes nothing
-    let record = solved(&ringing(Transfer::Affine, 0.0));
-    let rate = loss(&record, 0.7);
-    println!("affine along a line: loss {rate:.1e} /s");
-    assert!(rate.abs() < 1e-3);
+    let (own, _) = round_trip(&ringing(Transfer::Affine, 0.0));
+    println!("affine along a line: loss in one round trip {own:.1e}");
+    assert!(own.abs() < 2e-3, "{own}");
 }
 
 /// Nothing but the force gives momentum: it is the sum of the steps' impulses, to rounding, with all sides
@@ -237,4 +256,27 @@ fn what_moves_along_leaves_uniform_motion_alone() {
             .unwrap()[9]
             == 0.0
     );
+}
+
+/// A surface that is pulled is as well held as one that is pushed: both waves are mirror images where
+/// strains are small. Bodies that end on a row of nodes, pulled, reach into the row beyond by smooth
+/// functions, and are 5 % apart at most.
+#[test]
+fn a_pull_is_the_mirror_of_a_push() {
+    for kind in FLOWS {
+        let run = |sign: f64| {
+            let mut problem = column(1.0, SideMethod::new("roller"));
+            if let Drive::SideVelocity { pulse, .. } = &mut problem.drives[0] {
+                pulse.amplitude = 1e-6 * sign;
+            }
+            let record = solved(&flowing(problem, 0.4, kind, Transfer::Affine));
+            record.receivers.column("A_vy").unwrap().to_vec()
+        };
+        let (pull, push) = (run(1.0), run(-1.0));
+        let apart = pull.iter().zip(&push).map(|(a, b)| (a + b).abs());
+        let apart = apart.fold(0.0, f64::max);
+        println!("{kind:?}: apart by {apart:.1e} m/s");
+        assert!(apart < 5e-8, "{kind:?}: {apart}");
+        assert!(push.iter().any(|v| *v < -0.9e-6));
+    }
 }

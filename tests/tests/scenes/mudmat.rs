@@ -38,18 +38,19 @@ fn the_blow_arrives_in_time_and_the_fronts_release_before_it() {
     let late = |at| value(&heavy.rows, "none", "arrival_s", at);
     assert!(late("A").abs() < 0.03, "{}", late("A"));
     let own = late("B") + closed_form().direct(2.5, 5.0);
-    // from the front at B's height, as from a mat that is as high
     let impact = Impact::new(&Elastic::new(150e3, 0.49, 1500.0).unwrap(), 6.0).unwrap();
     let release = impact.arrival(2.5);
     println!("B departs at {own:.3} s, the front's release is there at {release:.3} s");
     assert!((own - release).abs() < 0.015, "{own} {release}");
 }
 
-/// S21 Fig. 6 has the echo at 0.44 s all but gone with the hybrid set-up; the target is a fifth of the
-/// pressure's fluctuation, and a tenth at B with the dashpot.
+/// S21 Fig. 6 has the echo at 0.44 s all but gone with the hybrid set-up; the targets are a fifth of the
+/// pressure's fluctuation, and at B a tenth of what comes back, with the dashpot.
 ///
-/// Neither is reached on this mesh: the mat is four cells high, and what the pressure does about 0.44 s is
-/// the flow around it as much as an echo. What holds is that the hybrid set-up has less of it.
+/// Neither is reached on this mesh: measured are 0.76 and 1.25. The mat is four cells high, and what the
+/// pressure does about 0.44 s is the flow around it and the release of the front as much as an echo; at B
+/// the velocity goes on changing with the flow, whatever the top is. What holds is that the hybrid set-up
+/// has less of the fluctuation than none.
 #[test]
 fn the_hybrid_set_up_calms_the_pressure() {
     let out = tempfile::tempdir().unwrap();
@@ -61,6 +62,8 @@ fn the_hybrid_set_up_calms_the_pressure() {
     );
     assert!(hybrid < 0.85, "{hybrid}");
     let inside = value(&finished.rows, "none", "penetration_cells", "mudmat");
+    let back = value(&finished.rows, "dashpot", "residual", "B");
+    println!("residual at B with the dashpot {back:.2}");
     println!("deepest point {inside:.2} cells in the mat");
     assert!(inside < 0.3, "{inside}");
 }

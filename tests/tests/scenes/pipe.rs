@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a gate fails by panicking")]
 
 use anechoic::commands::{Options, run};
+use anechoic::error::exit;
 use anechoic_reference::analytic::slip_line::{Interface, bearing_factor, merifield_smooth};
-use anechoic_tests::study::{compared, failing, print_claims, value};
+use anechoic_tests::study::{claims, compared, failing, print_claims, value};
 
 /// The dynamic push against the soil that goes on (certified): the base's echo comes when its wave has run
 /// to it and back (analytic, w/D = 0.168), the dashpot leaves 5 % and the true layer 2 % of the resistance.
@@ -35,12 +36,10 @@ fn the_bases_echo_comes_in_time_and_absorbers_take_it() {
     }
 }
 
-/// A push at 0.4 m/s, whose rho v^2 is 4 % of s_u, at w/D = 0.1, 0.2, 0.3: slip lines without heave below
-/// (analytic), and a fit to finite elements with heave above (Merifield et al. 2009).
-///
-/// The targets, 0.95 of the one and 1.1 of the other, are those of the paper's mesh. Cells of D/16 are
-/// coarse: the outline is known to a quarter of a cell, which at w/D = 0.1 is an eighth of the depth, and
-/// bilinear cells lock at nu = 0.49. Accepted here are the slip line as it stands and the fit with 20 %.
+/// A push at 0.4 m/s, whose rho v^2 is 4 % of s_u, to w/D = 0.1, 0.2, 0.3: slip lines without heave below
+/// (analytic), and a fit to finite elements with heave above (Merifield et al. 2009). The targets, 0.95 of
+/// the one and 1.1 of the other, hold on cells of D/16 as well. Heave and depth add to the slip lines: what
+/// lies below them would be soil that is too weak.
 #[test]
 fn a_slow_push_meets_what_clay_can_bear() {
     let out = tempfile::tempdir().unwrap();
@@ -50,16 +49,14 @@ fn a_slow_push_meets_what_clay_can_bear() {
         .set("pipe.velocity_m_s=0.4");
     let finished = run(&options).unwrap();
     print_claims(&finished.rows);
+    assert_eq!(claims(&finished.rows).count(), 6);
+    assert_eq!(finished.exit_code(), exit::PASS);
     for depth in [0.1, 0.2, 0.3] {
-        let own = value(
-            &finished.rows,
-            "fixed",
-            "resistance",
-            &format!("w/D={depth}"),
-        );
+        let place = format!("w/D={depth}");
+        let own = value(&finished.rows, "fixed", "resistance", &place);
         let low = bearing_factor(Interface::Smooth, depth).unwrap();
         let high = merifield_smooth(depth).unwrap();
         println!("w/D = {depth}: {own:.3}, slip lines {low:.3}, fit {high:.3}");
-        assert!(own > low && own < 1.2 * high, "{own}");
+        assert!(own > 0.95 * low && own < 1.1 * high, "{own}");
     }
 }
