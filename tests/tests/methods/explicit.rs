@@ -5,7 +5,7 @@
 
 use anechoic_reference::analytic::dalembert::Base;
 use anechoic_solver::boundary::SideMethod;
-use anechoic_solver::problem::{Aabb, PointMode, Problem, Scheme, Transfer};
+use anechoic_solver::problem::{Aabb, Drive, PointMode, Problem, Scheme, Transfer};
 use anechoic_solver::record::Record;
 use anechoic_tests::explicit::{FLOWS, flowing, leapfrog, longest_step};
 use anechoic_tests::{DEPTH, Unwatched, column, half_space, solved, ten_cells, worst_echo};
@@ -107,39 +107,51 @@ fn twenty_thousand_steps_only_decay() {
     }
 }
 
-/// Reflection of the base as the top sees it: the share of twice the pulse in what comes T = 2 H/c later.
-fn reflection(problem: &Problem<2>) -> f64 {
+/// Reflection of the base as the top sees it: the share of twice the pulse in what comes T = 2 H/c later,
+/// and how much of another form comes with it.
+fn reflection(problem: &Problem<2>) -> [f64; 2] {
     let record = solved(problem);
-    let anechoic_solver::problem::Drive::SideVelocity { pulse, .. } = &problem.drives[0] else {
+    let Drive::SideVelocity { pulse, .. } = &problem.drives[0] else {
         panic!("the column is driven at its top");
     };
     let back = 2.0 * problem.target.upper[1] / problem.material.p_speed();
     let values = record.receivers.column("A_vy").unwrap();
-    let (mut both, mut own) = (0.0, 0.0);
-    for (t, v) in record.receivers.times.iter().zip(values) {
-        let echo = 2.0 * pulse.value(t - back);
-        both += v * echo;
-        own += echo * echo;
-    }
-    both / own
+    let seen: Vec<[f64; 2]> = record
+        .receivers
+        .times
+        .iter()
+        .zip(values)
+        .filter(|(t, _)| (back..back + pulse.end()).contains(t))
+        .map(|(t, v)| [2.0 * pulse.value(t - back), *v])
+        .collect();
+    let own: f64 = seen.iter().map(|[echo, _]| echo * echo).sum();
+    let share = seen.iter().map(|[echo, v]| echo * v).sum::<f64>() / own;
+    let rest: f64 = seen
+        .iter()
+        .map(|[echo, v]| (v - share * echo).powi(2))
+        .sum();
+    [share, (rest / own).sqrt()]
 }
 
 /// Analytic: (1 - a)/(1 + a) head-on (Lysmer & Kuhlemeyer 1969), in frozen and in moving points of all
-/// bases. What the mesh's dispersion leaves of 31 cells a pulse is below 1 %; a traction by the velocity
-/// before the step leaves 2.6 %, and half the mass, which is a = 1/2, a third.
+/// bases, 31 cells a pulse. Half the mass, which is a = 1/2, would return a third. A traction by the velocity
+/// before the step returns 2.6 % in another form, the pulse's rate: at a = 1, where nothing hides it, no more
+/// than 1 % of it is allowed.
 #[test]
 fn dashpots_reflect_by_their_impedance() {
     for a in [0.5, 1.0, 2.0] {
         let exact = Base::Dashpot { impedance_ratio: a }.reflection();
         let base = || SideMethod::new("dashpot").with("impedance", a);
-        let own = reflection(&leapfrog(column(1.0, base()), 0.4));
-        println!("frozen, a = {a}: R = {own:.4} for {exact:.4}");
-        assert!((own - exact).abs() < 0.01, "{own} {exact}");
-        for kind in FLOWS {
+        let frozen = leapfrog(column(1.0, base()), 0.4);
+        let moving = FLOWS.map(|kind| {
             let problem = flowing(column(1.0, base()), 0.4, kind, Transfer::Affine);
-            let own = reflection(&problem);
-            println!("{kind:?}, a = {a}: R = {own:.4} for {exact:.4}");
-            assert!((own - exact).abs() < 0.01, "{kind:?}: {own} {exact}");
+            (format!("{kind:?}"), problem)
+        });
+        for (name, problem) in [("frozen".to_owned(), frozen)].into_iter().chain(moving) {
+            let [own, rest] = reflection(&problem);
+            println!("{name}, a = {a}: R = {own:.4} for {exact:.4}, rest {rest:.4}");
+            assert!((own - exact).abs() < 0.01, "{name}: {own} {exact}");
+            assert!(a != 1.0 || rest < 0.01, "{name}: {rest}");
         }
     }
 }
@@ -180,7 +192,7 @@ const FREQUENCIES: [f64; 3] = [1.0, 2.0, 3.0];
 /// `back` (s) at the free top, over twice that of the pulse.
 pub(super) fn harmonic_reflection(problem: &Problem<2>) -> [f64; 3] {
     let record = solved(problem);
-    let anechoic_solver::problem::Drive::SideVelocity { pulse, .. } = &problem.drives[0] else {
+    let Drive::SideVelocity { pulse, .. } = &problem.drives[0] else {
         panic!("the column is driven at its top");
     };
     let back = 2.0 * problem.target.upper[1] / problem.material.p_speed();

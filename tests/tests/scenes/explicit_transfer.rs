@@ -267,7 +267,7 @@ fn a_pull_is_the_mirror_of_a_push() {
         let run = |sign: f64| {
             let mut problem = column(1.0, SideMethod::new("roller"));
             if let Drive::SideVelocity { pulse, .. } = &mut problem.drives[0] {
-                pulse.amplitude = 1e-6 * sign;
+                pulse.amplitude = 1e-3 * sign;
             }
             let record = solved(&flowing(problem, 0.4, kind, Transfer::Affine));
             record.receivers.column("A_vy").unwrap().to_vec()
@@ -276,7 +276,7 @@ fn a_pull_is_the_mirror_of_a_push() {
         let apart = pull.iter().zip(&push).map(|(a, b)| (a + b).abs());
         let apart = apart.fold(0.0, f64::max);
         println!("{kind:?}: apart by {apart:.1e} m/s");
-        assert!(apart < 5e-8, "{kind:?}: {apart}");
-        assert!(push.iter().any(|v| *v < -0.9e-6));
+        assert!(apart < 5e-5, "{kind:?}: {apart}");
+        assert!(push.iter().any(|v| *v < -0.9e-3));
     }
 }
