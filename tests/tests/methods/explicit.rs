@@ -135,8 +135,8 @@ fn reflection(problem: &Problem<2>) -> [f64; 2] {
 
 /// Analytic: (1 - a)/(1 + a) head-on (Lysmer & Kuhlemeyer 1969), in frozen and in moving points of all
 /// bases, 31 cells a pulse. Half the mass, which is a = 1/2, would return a third. A traction by the velocity
-/// before the step returns 2.6 % in another form, the pulse's rate: at a = 1, where nothing hides it, no more
-/// than 1 % of it is allowed.
+/// before the step returns a wave of another form, the pulse's rate: 1.2 % of frozen points, seen at a = 1,
+/// where nothing else comes back. Centred, 0.1 % is left of all but B-splines, which the side cuts off.
 #[test]
 fn dashpots_reflect_by_their_impedance() {
     for a in [0.5, 1.0, 2.0] {
@@ -151,7 +151,12 @@ fn dashpots_reflect_by_their_impedance() {
             let [own, rest] = reflection(&problem);
             println!("{name}, a = {a}: R = {own:.4} for {exact:.4}, rest {rest:.4}");
             assert!((own - exact).abs() < 0.01, "{name}: {own} {exact}");
-            assert!(a != 1.0 || rest < 0.01, "{name}: {rest}");
+            let most = if name.contains("Bspline") {
+                0.01
+            } else {
+                0.003
+            };
+            assert!(a != 1.0 || rest < most, "{name}: {rest}");
         }
     }
 }
