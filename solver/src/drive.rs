@@ -60,13 +60,16 @@ impl<const D: usize> NodeTerm<D> for SideDrive<D> {
         } else {
             0.0
         };
+        // a surface that is pulled outwards leaves the nodes that it started with behind
+        let outwards = if self.side.upper { surface } else { -surface };
+        let reach = self.tolerance + outwards.max(0.0);
         for &(node, x) in &self.nodes {
             let beyond = if self.side.upper {
                 x - surface
             } else {
                 surface - x
             };
-            if beyond >= -self.tolerance {
+            if beyond >= -reach {
                 out.held[node as usize][self.side.axis] = true;
                 out.driven.push((node, self.side.axis as u8, driven));
             }

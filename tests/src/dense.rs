@@ -46,13 +46,14 @@ pub fn tiny(layer: SideMethod) -> Problem<2> {
 /// When the problem cannot be set up.
 pub fn probed(problem: &Problem<2>) -> (Model<2>, Vec<usize>, Mat<f64>) {
     let mut model = setup::model(problem).expect("the problem is well put");
-    model.begin_step(
+    let begun = model.begin_step(
         [0.0, problem.dt],
         Moment {
             step: 1,
             time_s: problem.dt,
         },
     );
+    begun.expect("points lie on the grid");
     // what is held has no force at all
     let free: Vec<usize> = (0..2 * model.grid.node_count())
         .filter(|&i| column(&mut model, i)[i] != 0.0)

@@ -1,7 +1,9 @@
 //! What the gates share: small problems with a monitor that lets them run, comparisons through the
-//! library ([`study`]), the program as it is typed ([`program`]), operators as dense matrices ([`dense`]).
+//! library ([`study`]), the program as it is typed ([`program`]), operators as dense matrices ([`dense`]),
+//! explicit steps ([`explicit`]).
 
 pub mod dense;
+pub mod explicit;
 pub mod program;
 pub mod space;
 pub mod study;

@@ -2,9 +2,15 @@
 
 use allocation_counter::{AllocationInfo, measure};
 use anechoic_solver::boundary::SideMethod;
+use anechoic_solver::contact::Contact;
+use anechoic_solver::contact::body::{Motion, RigidBody};
+use anechoic_solver::contact::shape::Shape;
 use anechoic_solver::probe::Probes;
-use anechoic_solver::problem::{Problem, SolverKind};
-use anechoic_tests::{column, solved};
+use anechoic_solver::problem::{
+    BasisKind, Intruder, PointMode, Problem, SolverKind, StressUpdate, Transfer,
+};
+use anechoic_tests::explicit::{FLOWS, flowing, leapfrog};
+use anechoic_tests::{block, column, solved};
 
 /// A column that records nothing but the times of its steps.
 fn silent(h: f64, base: SideMethod) -> Problem<2> {
@@ -116,4 +122,61 @@ fn a_scene_without_a_layer_pays_nothing_for_it() {
         short > 0.0 && (tall / short - 1.0).abs() < 0.05,
         "{short} {tall}"
     );
+}
+
+/// The block that a disc is pushed into, in leapfrog steps of points that move.
+fn flowing_block(kind: (BasisKind, StressUpdate), transfer: Transfer) -> Problem<2> {
+    let block = block(transfer, PointMode::Frozen);
+    let mut problem = flowing(block, 0.4, kind, transfer);
+    problem.probes = Probes::default();
+    problem.flow.room = [[2.0; 2]; 2];
+    problem.flow.intruders = vec![Intruder {
+        name: "disc".into(),
+        body: RigidBody {
+            shape: Shape::Circle {
+                centre: [-0.55, 1.3],
+                radius: 0.5,
+            },
+            motion: Motion {
+                velocity: [0.005, 0.0],
+                rise: 0.0,
+            },
+        },
+        contact: Contact {
+            friction: 0.3,
+            reach: 0.5,
+        },
+    }];
+    problem
+}
+
+#[test]
+fn explicit_steps_allocate_nothing() {
+    let layers = [
+        SideMethod::new("dashpot"),
+        SideMethod::new("damping-layer").with("thickness_m", 10.0),
+        SideMethod::new("pml").with("thickness_m", 10.0),
+        SideMethod::new("pml")
+            .with("thickness_m", 10.0)
+            .with("alpha_per_s", 1.0),
+    ];
+    let frozen = layers.map(|base| (base.method.clone(), leapfrog(silent(1.0, base), 0.4)));
+    let moving = FLOWS.into_iter().flat_map(|kind| {
+        [Transfer::Affine, Transfer::Flip].map(|t| {
+            let name = format!("{kind:?}, {t:?}, disc");
+            (name, flowing_block(kind, t))
+        })
+    });
+    for (name, problem) in frozen.into_iter().chain(moving) {
+        let after = |steps: f64| {
+            let mut problem = problem.clone();
+            problem.end_time = steps * problem.dt;
+            allocations(&problem).count_total
+        };
+        // points are sorted every few dozens of steps, among them
+        let (short, long) = (after(150.0), after(250.0));
+        println!("{name}: {short} allocations in 150 steps, {long} in 250");
+        assert!(short > 0);
+        assert_eq!(short, long, "{name}");
+    }
 }

@@ -289,7 +289,7 @@ impl<const D: usize> NodeTerm<D> for ScaledVelocities<D> {
             }
             let x = self.grid.node_place(node);
             let keep = match strongest(&self.profiles, &x, moved) {
-                (strength, _) if strength == 0.0 => continue,
+                (0.0, _) => continue,
                 (beta, true) => 1.0 - beta,
                 (rate, false) => (-rate * (end - start)).exp(),
             };

@@ -1,7 +1,7 @@
 //! Time integration. Integrators see only a [`System`].
 //!
 //! - [`newmark`]: beta = 1/4, gamma = 1/2.
-//! - [`explicit`]: leapfrog.
+//! - [`explicit`]: leapfrog, no equations.
 //! - [`quasi_static`]: equilibrium without inertia.
 //! - [`newton`]: the iteration that both share.
 

@@ -2,6 +2,8 @@
 //! meet, their operators, what grows, what stays under a load, and the studies that compare them.
 
 mod atlas;
+mod damping_form;
+mod explicit;
 mod growth;
 mod operator;
 mod pml;

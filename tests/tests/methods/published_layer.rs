@@ -191,13 +191,15 @@ fn the_published_layer_has_its_constants_in_the_right_places() {
     let mut problem = tiny(SideMethod::new("pml-stretched").with("relaxed_modulus_ratio", 1.0));
     problem.material.poissons_ratio = 0.4;
     let mut model = setup::model(&problem).unwrap();
-    model.begin_step(
-        [0.0, problem.dt],
-        Moment {
-            step: 1,
-            time_s: problem.dt,
-        },
-    );
+    model
+        .begin_step(
+            [0.0, problem.dt],
+            Moment {
+                step: 1,
+                time_s: problem.dt,
+            },
+        )
+        .unwrap();
     let n = model.grid.node_count();
     let rest = vec![[0.0; 2]; n];
     let u: Vec<Vector<2>> = (0..n)

@@ -61,7 +61,9 @@ fn begin(model: &mut Model<2>, dt: f64, step: usize) {
         step,
         time_s: dt * step as f64,
     };
-    model.begin_step([dt * (step - 1) as f64, dt * step as f64], moment);
+    model
+        .begin_step([dt * (step - 1) as f64, dt * step as f64], moment)
+        .unwrap();
 }
 
 /// Values that follow no pattern of the mesh, zero where nodes are held.

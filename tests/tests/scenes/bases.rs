@@ -76,7 +76,7 @@ fn constant_stress_is_in_equilibrium_inside() {
     for kind in KINDS {
         let problem = with(block(Transfer::Keep, PointMode::Frozen), kind);
         let mut model = setup::model(&problem).unwrap();
-        model.begin_step([0.0, 0.02], MOMENT);
+        model.begin_step([0.0, 0.02], MOMENT).unwrap();
         let stretch = nodal(&model, |x| [0.02 * x[0] - 0.03 * x[1], 0.015 * x[0]]);
         let rest = vec![[0.0; 2]; stretch.len()];
         let force = residual(&mut model, &stretch, &rest);
@@ -95,7 +95,7 @@ fn squared_frequency(kind: (BasisKind, MassKind), k: f64) -> f64 {
     let mut problem = with(block(Transfer::Keep, PointMode::Frozen), kind);
     problem.material.poissons_ratio = 0.0;
     let mut model = setup::model(&problem).unwrap();
-    model.begin_step([0.0, 0.02], MOMENT);
+    model.begin_step([0.0, 0.02], MOMENT).unwrap();
     // a crest at the middle, where the node is
     let wave = nodal(&model, |x| [(k * (x[0] - 2.0)).cos(), 0.0]);
     let rest = vec![[0.0; 2]; wave.len()];

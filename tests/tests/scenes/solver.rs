@@ -60,7 +60,7 @@ fn patch_residual(problem: &Problem<2>, distort: f64) -> f64 {
     }
     let places = model.points.place.clone();
     model.disc.place(&places).unwrap();
-    model.begin_step([0.0, 0.02], MOMENT);
+    model.begin_step([0.0, 0.02], MOMENT).unwrap();
     let increment = nodal(&model, linear_field);
     let force = force_at_rest(&mut model, &increment);
     let (mut inner, mut edge) = (0.0_f64, 0.0_f64);
@@ -131,7 +131,7 @@ fn a_rigid_translation_carries_on_for_ever() {
 #[test]
 fn a_finite_rotation_strains_nothing() {
     let mut model = setup::model(&block(Transfer::Affine, PointMode::Moving)).unwrap();
-    model.begin_step([0.0, 0.02], MOMENT);
+    model.begin_step([0.0, 0.02], MOMENT).unwrap();
     let (c, s) = (0.3_f64.cos(), 0.3_f64.sin());
     let increment = nodal(&model, |x| {
         [(c - 1.0) * x[0] - s * x[1], s * x[0] + (c - 1.0) * x[1]]
@@ -158,7 +158,7 @@ fn the_tangent_is_the_derivative_of_the_residual() {
         mass: 1e4,
         viscous: 1e2,
     };
-    model.begin_step([0.0, 0.02], MOMENT);
+    model.begin_step([0.0, 0.02], MOMENT).unwrap();
     let first = nodal(&model, |x| [1e-3 * x[1], 2e-3 * (x[0] - x[1])]);
     let rest = vec![[0.0; 2]; first.len()];
     let accepted = Motion {
@@ -168,7 +168,7 @@ fn the_tangent_is_the_derivative_of_the_residual() {
     };
     model.residual(&accepted, &mut rest.clone()).unwrap();
     model.commit(&accepted).unwrap();
-    model.begin_step([0.02, 0.04], MOMENT);
+    model.begin_step([0.02, 0.04], MOMENT).unwrap();
     let n = rest.len();
     let base = nodal(&model, |x| [1e-3 * x[0].sin(), 1e-3 * x[1].cos()]);
     let mut force_of = |increment: &[Vector<2>]| {
