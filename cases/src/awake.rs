@@ -1,6 +1,7 @@
 //! How much of a mesh waves have reached: the share of cell-steps that a solver would work on whose
 //! cells sleep until then. It is counted, not timed: no such solver is here.
 
+use crate::posed::{Posed, either};
 use anechoic_solver::error::SolverError;
 use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::material_box;
@@ -13,37 +14,45 @@ const CELLS_AHEAD: f64 = 10.0;
 ///
 /// # Errors
 /// [`SolverError::Setup`] for a problem that cannot be laid out.
-pub fn awake_share(problem: &Problem<2>) -> Result<f64, SolverError> {
+pub fn awake_share(posed: &Posed) -> Result<f64, SolverError> {
+    either!(posed, problem => share(problem))
+}
+
+fn share<const D: usize>(problem: &Problem<D>) -> Result<f64, SolverError> {
     let (all, h) = (
         material_box(problem)?,
-        fitted_cell(&problem.target, problem.cell_size),
+        fitted_cell(&problem.target, problem.edges()),
     );
-    let count = |axis: usize| ((all.upper[axis] - all.lower[axis]) / h[axis]).round() as usize;
-    let ahead = CELLS_AHEAD * h[0].max(h[1]);
+    let counts: [usize; D] =
+        std::array::from_fn(|a| ((all.upper[a] - all.lower[a]) / h[a]).round() as usize);
+    let ahead = CELLS_AHEAD * h.into_iter().fold(0.0, f64::max);
     let (speed, end) = (problem.material.p_speed(), problem.last_time());
-    let (columns, rows) = (count(0), count(1));
+    let cells: usize = counts.iter().product();
     let mut awake = 0.0;
-    for row in 0..rows {
-        for column in 0..columns {
-            let place = [
-                all.lower[0] + (column as f64 + 0.5) * h[0],
-                all.lower[1] + (row as f64 + 0.5) * h[1],
-            ];
-            let away = problem
-                .drives
-                .iter()
-                .map(|drive| distance(drive, problem, place));
-            let away = (away.fold(f64::INFINITY, f64::min) - ahead).max(0.0);
-            awake += (1.0 - away / speed / end).max(0.0);
-        }
+    for cell in 0..cells {
+        let mut rest = cell;
+        let place = std::array::from_fn(|a| {
+            let along = rest % counts[a];
+            rest /= counts[a];
+            all.lower[a] + (along as f64 + 0.5) * h[a]
+        });
+        let away = problem
+            .drives
+            .iter()
+            .map(|drive| distance(drive, problem, place));
+        let away = (away.fold(f64::INFINITY, f64::min) - ahead).max(0.0);
+        awake += (1.0 - away / speed / end).max(0.0);
     }
-    Ok(awake / (columns * rows) as f64)
+    Ok(awake / cells as f64)
 }
 
 /// From what drives to a place (m).
-fn distance(drive: &Drive<2>, problem: &Problem<2>, place: [f64; 2]) -> f64 {
+fn distance<const D: usize>(drive: &Drive<D>, problem: &Problem<D>, place: [f64; D]) -> f64 {
     match drive {
-        Drive::PointForce { place: from, .. } => (place[0] - from[0]).hypot(place[1] - from[1]),
+        Drive::PointForce { place: from, .. } => {
+            let squares = place.iter().zip(from).map(|(a, b)| (a - b).powi(2));
+            squares.sum::<f64>().sqrt()
+        }
         Drive::SideVelocity { side, .. } => {
             let target = &problem.target;
             let plane = if side.upper {
@@ -71,7 +80,7 @@ mod tests {
             .unwrap()
             .prepare(Some("extended"))
             .unwrap();
-        awake_share(&scene.scene.problem()).unwrap()
+        awake_share(&scene.scene.posed()).unwrap()
     }
 
     #[test]

@@ -53,6 +53,20 @@ impl<'a> Checks<'a> {
         self.require(n.isqrt().pow(2) == n, "points.per_cell", || {
             format!("{n} is not a square; allowed: 1, 4, 9, 16, ...")
         });
+        self.transfer(points);
+    }
+
+    /// The same in three dimensions.
+    pub fn points_in_space(&mut self, points: &PointsSpec) {
+        let n = points.per_cell;
+        let along = (n as f64).cbrt().round() as usize;
+        self.require(along.pow(3) == n, "points.per_cell", || {
+            format!("{n} is not a cube; allowed: 1, 8, 27, 64")
+        });
+        self.transfer(points);
+    }
+
+    fn transfer(&mut self, points: &PointsSpec) {
         let keeps = points.transfer == Transfer::Keep && points.mode == PointMode::Moving;
         // Blame what the user wrote, not what stood there before.
         let other = self.origins.of("points.transfer");
@@ -70,17 +84,26 @@ impl<'a> Checks<'a> {
     }
 
     /// Receivers with names of their own, inside the body.
-    pub fn receivers(&mut self, receivers: &[ReceiverSpec], body: &Aabb<2>) {
+    pub fn receivers<const D: usize>(&mut self, receivers: &[ReceiverSpec], body: &Aabb<D>) {
         self.require(!receivers.is_empty(), "receivers", || {
             "the list is empty; a scene needs a receiver at least".into()
         });
         for (index, receiver) in receivers.iter().enumerate() {
             let what = format!("receiver {}", receiver.name);
-            for (axis, (key, at)) in [("x_m", receiver.x_m), ("y_m", receiver.y_m)]
-                .into_iter()
-                .enumerate()
-            {
-                self.inside(&format!("receivers[{index}].{key}"), &what, at, body, axis);
+            let place = [
+                ("x_m", receiver.x_m),
+                ("y_m", receiver.y_m),
+                ("z_m", receiver.z_m),
+            ];
+            for (axis, (key, at)) in place.into_iter().enumerate() {
+                let field = format!("receivers[{index}].{key}");
+                if axis < D {
+                    self.inside(&field, &what, at, body, axis);
+                } else {
+                    self.require(at == 0.0, &field, || {
+                        "the scene is plane; a receiver has name, x_m, y_m".into()
+                    });
+                }
             }
             let before = receivers[..index].iter().any(|r| r.name == receiver.name);
             self.require(!before, &format!("receivers[{index}].name"), || {
@@ -90,7 +113,14 @@ impl<'a> Checks<'a> {
     }
 
     /// A coordinate (m) that must lie within the body along an axis.
-    pub fn inside(&mut self, field: &str, what: &str, at: f64, body: &Aabb<2>, axis: usize) {
+    pub fn inside<const D: usize>(
+        &mut self,
+        field: &str,
+        what: &str,
+        at: f64,
+        body: &Aabb<D>,
+        axis: usize,
+    ) {
         let (lower, upper) = (body.lower[axis], body.upper[axis]);
         self.require((lower..=upper).contains(&at), field, || {
             format!("{what} at {at} m lies outside the mesh; allowed: {lower} <= value <= {upper}")
@@ -156,7 +186,7 @@ impl<'a> Checks<'a> {
     }
 
     /// Layers that leave something of the body, whose size is given (m).
-    pub fn layers(&mut self, boundary: &BoundarySpec, size: [f64; 2]) {
+    pub fn layers<const D: usize>(&mut self, boundary: &BoundarySpec, size: [f64; D]) {
         for (index, (side, method)) in boundary.named().into_iter().enumerate() {
             let axis = index / 2;
             let field = format!("boundary.{side}.thickness_m");

@@ -37,6 +37,8 @@ pub enum Origin {
     },
     /// A `--set` on the command line.
     Set(String),
+    /// A level of an `--over` on the command line.
+    Over(String),
 }
 
 impl fmt::Display for Origin {
@@ -46,6 +48,7 @@ impl fmt::Display for Origin {
             Origin::BuiltIn(name) => write!(f, "{name}"),
             Origin::File { path, line } => write!(f, "{}:{line}", path.display()),
             Origin::Set(text) => write!(f, "--set {text}"),
+            Origin::Over(text) => write!(f, "--over {text}"),
         }
     }
 }
@@ -182,6 +185,14 @@ pub enum CaseError {
         /// A row that exists.
         example: String,
     },
+    /// What cannot be refined, or not like that.
+    #[error("--over {given}: {reason}")]
+    Refinement {
+        /// What was given, or its field.
+        given: String,
+        /// What is wrong with it, and what is expected.
+        reason: String,
+    },
     /// A command line that does not make sense.
     #[error("{0}")]
     Usage(String),
@@ -231,6 +242,7 @@ impl CaseError {
             | CaseError::NoStudy(_)
             | CaseError::Series { .. }
             | CaseError::Filter { .. }
+            | CaseError::Refinement { .. }
             | CaseError::Usage(_)
             | CaseError::Atlas(
                 AtlasError::Unsupported { .. } | AtlasError::Solver(SolverError::Setup { .. }),

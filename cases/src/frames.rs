@@ -31,7 +31,7 @@ pub struct Frames {
 
 impl Sampling {
     /// The problem of a scene, sampled at more times where that is asked for.
-    pub fn of(self, scene: &Problem<2>) -> Problem<2> {
+    pub fn of<const D: usize>(self, scene: &Problem<D>) -> Problem<D> {
         let mut problem = scene.clone();
         if self != Sampling::default() {
             let mut steps = own(scene);
@@ -48,7 +48,7 @@ impl Sampling {
     }
 
     /// Takes what was asked for out of the record, and leaves in it what the scene names.
-    pub fn part(self, scene: &Problem<2>, record: &mut Record) -> Frames {
+    pub fn part<const D: usize>(self, scene: &Problem<D>, record: &mut Record) -> Frames {
         if self == Sampling::default() {
             return Frames::default();
         }
@@ -71,19 +71,19 @@ impl Sampling {
 }
 
 /// The steps after which the scene itself is sampled.
-fn own(scene: &Problem<2>) -> BTreeSet<usize> {
+fn own<const D: usize>(scene: &Problem<D>) -> BTreeSet<usize> {
     let times = scene.probes.snapshot_times.iter();
     times.map(|time| step_of(scene, *time)).collect()
 }
 
 /// Steps at even distances, the last of them the last of the run.
-fn evenly(scene: &Problem<2>, count: usize) -> impl Iterator<Item = usize> {
+fn evenly<const D: usize>(scene: &Problem<D>, count: usize) -> impl Iterator<Item = usize> {
     let share = scene.last_time() / count as f64;
     (1..=count).map(move |i| step_of(scene, i as f64 * share))
 }
 
 /// The first step that ends no earlier than half a step before a time (s), as the solver samples.
-fn step_of(scene: &Problem<2>, time: f64) -> usize {
+fn step_of<const D: usize>(scene: &Problem<D>, time: f64) -> usize {
     (time / scene.dt - 0.5).ceil().max(0.0) as usize
 }
 

@@ -47,6 +47,7 @@ impl HalfSpace {
         Problem {
             target: self.target.body(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
             basis: self.basis,
             scheme: self.time.scheme,
             mass: self.time.mass,
@@ -55,6 +56,7 @@ impl HalfSpace {
             point_mode: self.points.mode,
             transfer: self.points.transfer,
             points_per_cell: self.points.per_cell,
+            face_gap: self.points.face_gap,
             material: self.material.elastic(),
             flow: FlowSetup::default(),
             sides: self.boundary.sides(),
@@ -115,9 +117,10 @@ impl HalfSpace {
         self.receivers.iter().map(window).collect()
     }
 
-    /// Edge of the cells in use (m).
+    /// Longer edge of the cells in use (m).
     pub fn cell_m(&self) -> f64 {
-        self.grid.cell_m(&self.target.body())
+        let [x, y] = self.grid.cell(&self.target.body());
+        x.max(y)
     }
 }
 

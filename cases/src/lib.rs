@@ -4,6 +4,7 @@
 //! - [`spec`], [`half_space`], [`field`], [`checks`]: parts of scenes, their keys, ranges and relations.
 //! - [`draft`]: profile, preset, file, method and `--set` laid over a scene's values.
 //! - [`prepare`]: from what was asked to a scene ready to run; [`scene_text`] writes it down.
+//! - [`posed`]: what a scene gives the solver, in the plane or in space.
 //! - [`shard`]: shares of a plan for several processes.
 //! - [`frames`]: fields over time on request.
 //! - [`runner`], [`progress`]: solving; [`store`]: records on disk; [`resume`]: those that are read
@@ -11,7 +12,8 @@
 //! - [`certified`]: references that have to be solved for; where they lie, until when they serve.
 //! - [`judge`]: metrics, claims, rows; [`pictures`], [`study`]: what is shown of them.
 //! - [`over`]: levels of convergence studies; [`sweep`]: points of sweeps.
-//! - [`timing`]: runs for their time alone; [`awake`]: cells that a wave has reached.
+//! - [`timing`]: runs for their time alone; [`awake`]: cells that a wave has reached; [`spectrum`]: what
+//!   small meshes with a scene's sides grow by.
 //! - [`atlas`]: what sides reflect of plane waves, by angle.
 //! - [`commands`], [`cli`]: the program.
 
@@ -31,6 +33,7 @@ pub mod half_space;
 pub mod judge;
 pub mod over;
 pub mod pictures;
+pub mod posed;
 pub mod prepare;
 pub mod progress;
 pub mod provenance;
@@ -41,6 +44,7 @@ pub mod scene_text;
 pub mod scenes;
 pub mod shard;
 pub mod spec;
+pub mod spectrum;
 pub mod store;
 pub mod study;
 pub mod sweep;

@@ -1,13 +1,13 @@
 //! `--over FIELD=VALUE,VALUE,...`: the levels of a convergence study.
 
-use crate::error::CaseError;
+use crate::error::{CaseError, hint, nearest};
 use anechoic_reports::convergence::label;
 use toml::{Table, Value};
 
-/// A field that is refined, and its values, the largest (coarse) first.
+/// A field that is refined, and its values, coarse to fine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Over {
-    /// The field as `--set` knows it, for example `grid.h_m` or `pml.thickness_m`.
+    /// One of [`REFINING`].
     pub field: String,
     /// At least two different positive values.
     pub values: Vec<f64>,
@@ -15,21 +15,47 @@ pub struct Over {
 
 /// Field of the cells' size.
 pub const CELLS: &str = "grid.h_m";
+/// Field of the time step.
+pub const STEP: &str = "time.dt_s";
+/// Field of the points in a cell.
+pub const POINTS: &str = "points.per_cell";
+
+/// Fields that refine a scene, with the cause whose errors they bound: all else makes it another scene.
+pub const REFINING: [(&str, &str); 3] = [(CELLS, "space"), (STEP, "time"), (POINTS, "points")];
+
+/// The cause whose errors a field bounds, for people and in rows.
+pub fn cause(field: &str) -> &'static str {
+    let found = REFINING.iter().find(|(own, _)| *own == field);
+    found.map_or("", |(_, cause)| cause)
+}
 
 impl Over {
     /// Reads `FIELD=VALUE,VALUE,...`.
     ///
     /// # Errors
-    /// [`CaseError::Usage`] with what is expected.
+    /// [`CaseError::Refinement`] with what is expected.
     pub fn parse(text: &str) -> Result<Self, CaseError> {
-        let wrong = |what: &str| {
-            CaseError::Usage(format!(
-                "--over {text}: {what}; expected a field and its values, for example --over {CELLS}=20,10,5"
-            ))
+        let wrong = |what: &str| CaseError::Refinement {
+            given: text.to_owned(),
+            reason: format!(
+                "{what}; expected a field and its values, for example --over {CELLS}=20,10,5"
+            ),
         };
         let (field, list) = text
             .split_once('=')
             .ok_or_else(|| wrong("there is no `=`"))?;
+        let field = field.trim();
+        if cause(field).is_empty() {
+            let known = REFINING.map(|(own, _)| own);
+            let hint = hint(&nearest(field, known));
+            return Err(CaseError::Refinement {
+                given: field.to_owned(),
+                reason: format!(
+                    "refines nothing that errors could fall with; {} do, and `sweep` varies anything{hint}",
+                    known.join(", ")
+                ),
+            });
+        }
         let mut values = list
             .split(',')
             .map(|word| {
@@ -39,15 +65,19 @@ impl Over {
                     .ok_or_else(|| wrong(&format!("`{}` is no positive number", word.trim())))
             })
             .collect::<Result<Vec<f64>, _>>()?;
-        values.sort_by(|a, b| b.total_cmp(a));
+        values.sort_by(f64::total_cmp);
         if let Some(pair) = values.windows(2).find(|pair| pair[0] == pair[1]) {
             return Err(wrong(&format!("{} stands there twice", pair[0])));
         }
         if values.len() < 2 {
             return Err(wrong("an order needs two values at least"));
         }
+        // more points are finer, smaller cells and steps are
+        if field != POINTS {
+            values.reverse();
+        }
         Ok(Over {
-            field: field.trim().to_owned(),
+            field: field.to_owned(),
             values,
         })
     }
@@ -96,6 +126,10 @@ mod tests {
             over.assignments(),
             ["grid.h_m=20", "grid.h_m=10", "grid.h_m=5"]
         );
+        assert_eq!(
+            Over::parse("points.per_cell=9,4,16").unwrap().values,
+            [4.0, 9.0, 16.0]
+        );
     }
 
     #[test]
@@ -106,9 +140,12 @@ mod tests {
             ("grid.h_m=10,ten", "`ten` is no positive number"),
             ("grid.h_m=10,-5", "`-5` is no positive number"),
             ("grid.h_m=10,10.0", "10 stands there twice"),
+            ("grid.hm=10,5", "did you mean `grid.h_m`?"),
+            ("material.E_Pa=1e7,1e6", "time.dt_s, points.per_cell do"),
         ] {
             let error = Over::parse(text).unwrap_err().to_string();
-            assert!(error.contains(part) && error.contains(text), "{error}");
+            let field = text.split('=').next().unwrap();
+            assert!(error.contains(part) && error.contains(field), "{error}");
         }
     }
 

@@ -6,8 +6,8 @@ use crate::error::{CaseError, Complaint, Origin};
 use crate::scene::{Overlay, Scene, SceneInfo};
 use crate::scenes;
 use crate::spec::BoundarySpec;
+use anechoic_solver::Bill;
 use anechoic_solver::error::SolverError;
-use anechoic_solver::{Bill, bill};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -128,7 +128,7 @@ impl Target {
         if !complaints.is_empty() {
             return Err(CaseError::Scene(complaints));
         }
-        let bill = bill(&scene.problem()).map_err(|error| match error {
+        let bill = scene.posed().bill().map_err(|error| match error {
             SolverError::Setup { field, reason } => CaseError::Scene(vec![Complaint {
                 origin: finished.origins.of(&field),
                 field,
@@ -184,7 +184,10 @@ impl Target {
     /// The method whose preset puts the same methods with the same parameters on the sides; else the
     /// only one that puts the same methods there; else the sides' methods.
     fn row_name(&self, sides: &BoundarySpec) -> String {
-        let names = |sides: &BoundarySpec| sides.named().map(|(_, side)| side.method.clone());
+        let names = |sides: &BoundarySpec| -> Vec<String> {
+            let named = sides.named().into_iter();
+            named.map(|(_, side)| side.method.clone()).collect()
+        };
         let wanted = names(sides);
         let presets = self.info.methods.iter().filter_map(|method| {
             let mut draft = Draft::new((self.info.defaults)(), self.info.all_fields());

@@ -2,13 +2,13 @@
 
 use crate::error::CaseError;
 use crate::frames::{Frames, Sampling};
+use crate::posed::{Posed, either};
 use crate::prepare::Prepared;
 use crate::progress::Progress;
 use crate::resume::folder;
 use crate::store::{Manifest, Store};
 use anechoic_solver::record::{Cost, Record, SeriesTable, Status};
-use anechoic_solver::solve;
-use cpu_time::ThreadTime;
+use cpu_time::{ProcessTime, ThreadTime};
 use rayon::ThreadPool;
 use rayon::prelude::*;
 use std::path::PathBuf;
@@ -82,6 +82,8 @@ pub fn run_all(
     store: &Store,
 ) -> Result<Vec<Run>, CaseError> {
     let progress = Progress::new(tasks.iter().map(Task::work).sum());
+    let solved = tasks.iter().filter(|t| matches!(t, Task::Solve(_)));
+    let alone = jobs > 1 && solved.count() == 1;
     let runs = pool(jobs)?.install(|| {
         tasks
             .into_par_iter()
@@ -89,7 +91,7 @@ pub fn run_all(
             .map(|task| match task {
                 Task::Take(run) => Ok(*run),
                 Task::Solve(scene) => {
-                    let run = run_one(*scene, sampling, &progress);
+                    let run = run_one(*scene, sampling, &progress, alone);
                     store.save(&run).map(|()| run)
                 }
             })
@@ -110,15 +112,20 @@ pub fn pool(jobs: usize) -> Result<ThreadPool, CaseError> {
         .map_err(|error| CaseError::Usage(format!("--jobs {jobs}: {error}")))
 }
 
-/// Solves one scene on this thread and measures what it costs.
-fn run_one(prepared: Prepared, sampling: Sampling, progress: &Progress) -> Run {
-    let scene = prepared.scene.problem();
-    let problem = sampling.of(&scene);
+/// Solves one scene and measures what it costs: on this thread, or on all of the pool where it is alone.
+fn run_one(prepared: Prepared, sampling: Sampling, progress: &Progress, alone: bool) -> Run {
+    let scene = prepared.scene.posed();
+    let problem = either!(&scene, scene => {
+        let mut problem = sampling.of(scene);
+        problem.flow.shared = alone;
+        Posed::from(problem)
+    });
     let monitor = progress.monitor(prepared.bill.points);
     let mut outcome = None;
-    let (wall, cpu) = (Instant::now(), ThreadTime::now());
-    let memory = allocation_counter::measure(|| outcome = Some(solve(&problem, &monitor)));
-    let (wall_s, cpu_s) = (wall.elapsed().as_secs_f64(), cpu.elapsed().as_secs_f64());
+    let (wall, cpu, all) = (Instant::now(), ThreadTime::now(), ProcessTime::now());
+    let memory = allocation_counter::measure(|| outcome = Some(problem.solve(&monitor)));
+    let cpu = if alone { all.elapsed() } else { cpu.elapsed() };
+    let (wall_s, cpu_s) = (wall.elapsed().as_secs_f64(), cpu.as_secs_f64());
     let mut record = match outcome.expect("measure calls its closure once") {
         Ok(outcome) => {
             let mut record = outcome.record;
@@ -129,7 +136,7 @@ fn run_one(prepared: Prepared, sampling: Sampling, progress: &Progress) -> Run {
         }
         Err(error) => nothing(error.to_string()),
     };
-    let frames = sampling.part(&scene, &mut record);
+    let frames = either!(&scene, scene => sampling.part(scene, &mut record));
     record.cost.wall_s = wall_s;
     record.cost.cpu_s = cpu_s;
     record.cost.peak_bytes = memory.bytes_max;

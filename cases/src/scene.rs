@@ -2,11 +2,11 @@
 
 use crate::checks::Checks;
 use crate::field::Field;
+use crate::posed::Posed;
 use crate::spec::BoundarySpec;
 use crate::sweep::named::NamedSweep;
 use anechoic_reference::claim::{Claim, Evidence};
 use anechoic_reports::study::Finding;
-use anechoic_solver::problem::Problem;
 use anechoic_solver::record::Record;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -16,7 +16,7 @@ use toml::Table;
 /// A benchmark with the values it is run with, sides included.
 pub trait Scene: Debug + Send + Sync {
     /// What the solver is given.
-    fn problem(&self) -> Problem<2>;
+    fn posed(&self) -> Posed;
 
     /// The sides as run.
     fn boundary(&self) -> &BoundarySpec;
@@ -37,15 +37,33 @@ pub trait Scene: Debug + Send + Sync {
     /// The reason why there is no reference for this scene as it stands.
     fn references(&self, times: &[f64]) -> Result<Vec<Reference>, String>;
 
+    /// The same by a finer quadrature, where they have one: what that changes is their own error.
+    ///
+    /// # Errors
+    /// As [`Scene::references`].
+    fn finer_references(&self, _times: &[f64]) -> Result<Option<Vec<Reference>>, String> {
+        Ok(None)
+    }
+
     /// The scene with sides so far away that nothing comes back, where what is true has to be solved
     /// for; see [`crate::certified`].
-    fn extended(&self) -> Option<Problem<2>> {
+    fn extended(&self) -> Option<Posed> {
         None
     }
 
     /// What is measured of a run by the scene's own norms, beside others of the same study.
     fn measures(&self, _run: &Record, _beside: &Beside<'_>) -> Vec<OwnNumber> {
         Vec::new()
+    }
+
+    /// Pictures of the scene's own numbers.
+    fn pictures(&self) -> Vec<OwnPicture> {
+        Vec::new()
+    }
+
+    /// The curve of a run in the picture called `name`.
+    fn curve(&self, _name: &str, _run: &Record) -> Option<Curve> {
+        None
     }
 
     /// Which of the paper's tests this is, as [`anechoic_reference::paper`] names it.
@@ -76,6 +94,34 @@ pub trait Scene: Debug + Send + Sync {
     fn serves_until_s(&self) -> Option<f64> {
         None
     }
+}
+
+/// Abscissae and ordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Abscissae, increasing.
+    pub x: Vec<f64>,
+    /// Values.
+    pub y: Vec<f64>,
+}
+
+/// A picture of one of the scene's own numbers, all methods in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OwnPicture {
+    /// File name without extension.
+    pub name: &'static str,
+    /// Title.
+    pub title: &'static str,
+    /// What it shows and how to read it.
+    pub caption: &'static str,
+    /// Name and unit of the abscissae.
+    pub x: (&'static str, &'static str),
+    /// Name and unit of the ordinates.
+    pub y: (&'static str, &'static str),
+    /// What is true, with its name.
+    pub truth: Option<(&'static str, Curve)>,
+    /// Places on the way with what happens there.
+    pub marks: Vec<(f64, String)>,
 }
 
 /// Runs of the same study that a run is set beside.
@@ -168,8 +214,8 @@ pub struct Reference {
     pub evidence: Evidence,
     /// Displacement or velocity.
     pub quantity: Quantity,
-    /// One entry a receiver: name, and x and y components at the asked times.
-    pub receivers: Vec<(String, [Vec<f64>; 2])>,
+    /// One entry a receiver: name, and a component for each axis at the asked times.
+    pub receivers: Vec<(String, Vec<Vec<f64>>)>,
     /// Separate pulses with silence between them, so that arrivals can be timed.
     pub pulses: bool,
 }

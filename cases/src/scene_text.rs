@@ -17,7 +17,7 @@ pub fn write(prepared: &Prepared) -> String {
         prepared.profile
     );
     // The step is the only field that a scene derives.
-    let dt = prepared.scene.problem().dt;
+    let dt = prepared.scene.posed().dt();
     let fields = prepared.info.all_fields();
     for field in fields.iter().filter(|f| !f.path.contains('.')) {
         if field.kind != Kind::Receivers {
@@ -99,7 +99,7 @@ fn receivers(text: &mut String, table: &Table) {
         .flatten()
     {
         text.push_str("\n[[receivers]]\n");
-        for key in ["name", "x_m", "y_m"] {
+        for key in ["name", "x_m", "y_m", "z_m"] {
             if let Some(value) = receiver.get(key) {
                 let _ = writeln!(text, "{key} = {}", inline(value));
             }

@@ -5,7 +5,7 @@ use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::{LineProbe, Receiver};
 use anechoic_solver::problem::{
-    Aabb, Elastic, MassKind, PointMode, Scheme, SolverKind, StressUpdate, Transfer,
+    Aabb, Elastic, MassKind, PointMode, Scheme, SolverKind, StressUpdate, Transfer, edges,
 };
 use serde::{Deserialize, Serialize};
 
@@ -14,13 +14,20 @@ use serde::{Deserialize, Serialize};
 pub struct GridSpec {
     /// Largest edge of a cell (m); cells are made to fit the body.
     pub h_m: f64,
+    /// Edge along x over edge along y; left out: 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub aspect: Option<f64>,
 }
 
 impl GridSpec {
-    /// Longest edge (m) of the cells that fit a body.
-    pub fn cell_m(&self, body: &Aabb<2>) -> f64 {
-        let [width, height] = fitted_cell(body, self.h_m);
-        width.max(height)
+    /// Edge along x over edge along y.
+    pub fn aspect(&self) -> f64 {
+        self.aspect.unwrap_or(1.0)
+    }
+
+    /// Edges (m) of the cells that fit a body.
+    pub fn cell<const D: usize>(&self, body: &Aabb<D>) -> [f64; D] {
+        fitted_cell(body, edges(self.h_m, self.aspect()))
     }
 }
 
@@ -84,6 +91,9 @@ pub struct PointsSpec {
     pub transfer: Transfer,
     /// Points in a cell, all directions together.
     pub per_cell: usize,
+    /// Distance of a cell's outermost points from its faces over its edges; left out: half of a part.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub face_gap: Option<f64>,
 }
 
 /// What explicit steps of moving points have besides.
@@ -93,6 +103,18 @@ pub struct FlowSpec {
     pub update: StressUpdate,
     /// Share of the nodes' velocity that points take over in a step (`flip` alone).
     pub pic_share: f64,
+    /// Whose change of volume the stress follows.
+    pub volume: Volume,
+}
+
+/// Whose change of volume the stress follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Volume {
+    /// Each point's own: locks where the volume hardly changes.
+    Point,
+    /// That of the cell (F-bar).
+    Cell,
 }
 
 /// Fields of explicit steps of moving points.
@@ -106,6 +128,11 @@ pub const FLOW: &[Field] = &[
         "flow.pic_share",
         Kind::Number(Range::within(0.0, 1.0)),
         "share of the nodes' velocity that points take over in a step (flip alone)",
+    ),
+    Field::new(
+        "flow.volume",
+        Kind::Word(&["cell", "point"]),
+        "whose change of volume the stress follows: the cell's (F-bar), or each point's, which locks",
     ),
 ];
 
@@ -150,6 +177,14 @@ pub struct ReceiverSpec {
     pub x_m: f64,
     /// Place (m).
     pub y_m: f64,
+    /// Place (m); 0 in the plane.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub z_m: f64,
+}
+
+/// What is left out of a table.
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
 }
 
 impl ReceiverSpec {
@@ -159,14 +194,16 @@ impl ReceiverSpec {
             name: name.to_owned(),
             x_m,
             y_m,
+            z_m: 0.0,
         }
     }
 
-    /// The solver's receiver.
-    pub fn probe(&self) -> Receiver<2> {
+    /// The solver's receiver, with as many coordinates as there are dimensions.
+    pub fn probe<const D: usize>(&self) -> Receiver<D> {
+        let place = [self.x_m, self.y_m, self.z_m];
         Receiver {
             name: self.name.clone(),
-            place: [self.x_m, self.y_m],
+            place: std::array::from_fn(|axis| place[axis]),
         }
     }
 }
@@ -182,6 +219,12 @@ pub struct BoundarySpec {
     pub bottom: SideMethod,
     /// y largest.
     pub top: SideMethod,
+    /// z smallest; in three dimensions alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub back: Option<SideMethod>,
+    /// z largest; in three dimensions alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub front: Option<SideMethod>,
 }
 
 impl BoundarySpec {
@@ -193,14 +236,29 @@ impl BoundarySpec {
         ]
     }
 
-    /// Sides by name.
-    pub fn named(&self) -> [(&'static str, &SideMethod); 4] {
-        [
+    /// The same in three dimensions; sides that are not named are free.
+    pub fn sides_in_space(&self) -> [[SideMethod; 2]; 3] {
+        let [across, up] = self.sides();
+        let through = [&self.back, &self.front].map(|side| {
+            let free = || SideMethod::new("free");
+            side.clone().unwrap_or_else(free)
+        });
+        [across, up, through]
+    }
+
+    /// Sides by name, axis by axis, the lower end first.
+    pub fn named(&self) -> Vec<(&'static str, &SideMethod)> {
+        let plane = [
             ("left", &self.left),
             ("right", &self.right),
             ("bottom", &self.bottom),
             ("top", &self.top),
-        ]
+        ];
+        let through = [("back", &self.back), ("front", &self.front)];
+        let through = through
+            .into_iter()
+            .filter_map(|(name, side)| Some((name, side.as_ref()?)));
+        plane.into_iter().chain(through).collect()
     }
 }
 
@@ -215,6 +273,11 @@ pub const NUMERICS: &[Field] = &[
         "grid.h_m",
         Kind::Number(Range::POSITIVE),
         "largest edge of a cell (m); cells are fitted to the body",
+    ),
+    Field::new(
+        "grid.aspect",
+        Kind::OptionalNumber(ASPECT, "left out: 1, square cells"),
+        "edge of a cell along x over that along y; the longer is grid.h_m",
     ),
     Field::new(
         "time.scheme",
@@ -249,7 +312,15 @@ pub const NUMERICS: &[Field] = &[
     Field::new(
         "points.per_cell",
         Kind::Whole(1, 100),
-        "points in a cell, all directions together: a square",
+        "points in a cell, all directions together: a square, or a cube in three dimensions",
+    ),
+    Field::new(
+        "points.face_gap",
+        Kind::OptionalNumber(
+            Range::inside(0.0, 0.5),
+            "left out: points at the centres of equal parts",
+        ),
+        "distance of a cell's outermost points from its faces over its edges",
     ),
     Field::new(
         "solver.rel_tol",
@@ -262,6 +333,9 @@ pub const NUMERICS: &[Field] = &[
         "linear solver",
     ),
 ];
+
+/// Cells thinner than this are no mesh for waves.
+const ASPECT: Range = Range::within(0.01, 100.0);
 
 /// Above a thousandth the solver's error is as large as the echoes that are looked for.
 const TOLERANCE: Range = Range {
@@ -306,4 +380,10 @@ pub const PROBES_AND_SIDES: &[Field] = &[
     Field::new("boundary.right", Kind::Side, "x largest"),
     Field::new("boundary.bottom", Kind::Side, "y smallest"),
     Field::new("boundary.top", Kind::Side, "y largest"),
+];
+
+/// Sides of a scene in three dimensions beside those.
+pub const SIDES_IN_SPACE: &[Field] = &[
+    Field::new("boundary.back", Kind::Side, "z smallest"),
+    Field::new("boundary.front", Kind::Side, "z largest"),
 ];

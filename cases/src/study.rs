@@ -15,6 +15,7 @@ use crate::judge::{
 };
 use crate::pictures::{self, Picture, animation};
 use crate::runner::Run;
+use crate::spectrum;
 use crate::store::{save_rows, write_file};
 use crate::sweep::named;
 use crate::timing;
@@ -152,13 +153,13 @@ fn judge_study(
     references: &References,
 ) -> Result<(Judged, Option<Upshot>), CaseError> {
     Ok(match &study.kind {
-        Kind::Convergence { over } => {
+        Kind::Convergence(grid) => {
             let lost = study.damaged.first().map(|damage| {
                 let name = study.kind.name_of_damage(damage);
                 format!("a level is missing: {name}: {}", damaged(damage))
             });
-            let (judged, convergence) = judge_levels(&study.runs, over, references, lost);
-            (judged, convergence.map(Upshot::Convergence))
+            let (judged, refinement) = judge_levels(&study.runs, grid, references, lost.as_deref());
+            (judged, Some(Upshot::Convergence(refinement)))
         }
         Kind::Sweep(grid) => {
             let (judged, sweep) = judge_points(&study.runs, grid, references);
@@ -173,7 +174,8 @@ fn judge_study(
             (judged, Some(Upshot::Tradeoff(tradeoff)))
         }
         Kind::Stability(grid) => {
-            let (judged, stability) = judge_stability(&study.runs, grid);
+            let spectra = spectrum::load(&study.folder)?;
+            let (judged, stability) = judge_stability(&study.runs, grid, &spectra);
             (judged, Some(Upshot::Stability(stability)))
         }
         Kind::Comparison | Kind::Ablation => {

@@ -2,13 +2,12 @@
 //! machine with others and sample fields; these do not.
 
 use crate::error::CaseError;
+use crate::posed::{Posed, either};
 use crate::progress::{Progress, stopped};
 use crate::runner::Run;
 use crate::store::{json, read_json, write_file};
 use anechoic_reports::tradeoff::Timing;
-use anechoic_solver::problem::Problem;
 use anechoic_solver::record::Status;
-use anechoic_solver::solve;
 use cpu_time::ThreadTime;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
@@ -45,6 +44,20 @@ pub fn load(folder: &Path) -> Result<Timings, CaseError> {
 /// [`CaseError::Storage`].
 pub fn forget(folder: &Path) -> Result<(), CaseError> {
     write_file(&folder.join(TIMING), &json(&Timings::new())?)
+}
+
+/// Forgets the times of runs that are solved again, by their folders.
+///
+/// # Errors
+/// [`CaseError::Storage`], and what [`load`] says.
+pub fn forget_some(folder: &Path, keys: &[String]) -> Result<(), CaseError> {
+    let mut timings = load(folder)?;
+    let known = timings.len();
+    timings.retain(|key, _| !keys.contains(key));
+    if timings.len() == known {
+        return Ok(());
+    }
+    write_file(&folder.join(TIMING), &json(&timings)?)
 }
 
 /// Takes the times of a study away, whoever else does so at the same time.
@@ -118,18 +131,37 @@ pub fn seconds(cpu_s: f64, repeats: usize) -> f64 {
 }
 
 /// The problem without what is sampled for pictures.
-fn bare(run: &Run) -> Problem<2> {
-    let mut problem = run.prepared.scene.problem();
-    problem.probes.lines.clear();
-    problem.probes.snapshot_times.clear();
-    problem
+fn bare(run: &Run) -> Posed {
+    let mut posed = run.prepared.scene.posed();
+    either!(&mut posed, problem => {
+        problem.probes.lines.clear();
+        problem.probes.snapshot_times.clear();
+    });
+    posed
 }
 
 /// CPU time (s) of one solve; none if it failed or was stopped.
-fn once(problem: &Problem<2>, run: &Run, progress: &Progress) -> Option<f64> {
+fn once(problem: &Posed, run: &Run, progress: &Progress) -> Option<f64> {
     let monitor = progress.monitor(run.prepared.bill.points);
     let start = ThreadTime::now();
-    let outcome = solve(problem, &monitor).ok()?;
+    let outcome = problem.solve(&monitor).ok()?;
     let time = start.elapsed().as_secs_f64();
     (outcome.record.status == Status::Complete).then_some(time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_times_of_runs_that_are_solved_again_are_forgotten() {
+        let folder = tempfile::tempdir().unwrap();
+        let names = ["pml/a", "pml/b"].map(str::to_owned);
+        let timing = Timing::of(vec![1.0]).unwrap();
+        let known: Timings = names.iter().map(|name| (name.clone(), timing)).collect();
+        write_file(&folder.path().join(TIMING), &json(&known).unwrap()).unwrap();
+        forget_some(folder.path(), &[names[1].clone(), "pml/c".to_owned()]).unwrap();
+        let left: Vec<String> = load(folder.path()).unwrap().into_keys().collect();
+        assert_eq!(left, names[..1]);
+    }
 }

@@ -297,16 +297,26 @@ fn assignments_are_laid_in_order_and_over_the_file() {
     let path = path.display().to_string();
     let prepared = accepted(&path, &[], None);
     assert_eq!(prepared.profile, "paper");
-    let problem = prepared.scene.problem();
+    let problem = prepared.scene.posed().plane().unwrap();
     assert_eq!((problem.cell_size, problem.dt), (2.0, 0.01));
     let problem = accepted(&path, &["grid.h_m=5", "grid.h_m=0.5"], None)
         .scene
-        .problem();
+        .posed()
+        .plane()
+        .unwrap();
     assert_eq!((problem.cell_size, problem.dt), (0.5, 0.0025));
     // 13 cells fit into 50 m: the step follows the cell in use.
-    let problem = accepted(CASE, &["grid.h_m=4"], None).scene.problem();
+    let problem = accepted(CASE, &["grid.h_m=4"], None)
+        .scene
+        .posed()
+        .plane()
+        .unwrap();
     assert!((problem.dt - 0.005 * 50.0 / 13.0).abs() < 1e-15);
-    let problem = accepted(&path, &["time.dt_s=0.004"], None).scene.problem();
+    let problem = accepted(&path, &["time.dt_s=0.004"], None)
+        .scene
+        .posed()
+        .plane()
+        .unwrap();
     assert_eq!(problem.dt, 0.004);
 }
 

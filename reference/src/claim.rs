@@ -16,6 +16,9 @@ pub enum Evidence {
     Paper,
     /// An earlier result of this program.
     Regression,
+    /// The same scheme, finer or with one part exchanged: says what that part still changes, not what is
+    /// true.
+    Refinement,
 }
 
 impl Evidence {
@@ -35,6 +38,7 @@ impl Evidence {
             Evidence::Certified => "certified",
             Evidence::Paper => "paper",
             Evidence::Regression => "regression",
+            Evidence::Refinement => "refinement",
         }
     }
 }
@@ -117,5 +121,6 @@ mod tests {
         assert!(Evidence::Certified.verifies());
         assert!(!Evidence::Paper.verifies());
         assert!(!Evidence::Regression.verifies());
+        assert!(!Evidence::Refinement.verifies());
     }
 }

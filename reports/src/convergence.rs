@@ -3,10 +3,13 @@
 //! Rows are named so that programs can tell them apart: an error on a level has the place
 //! `PLACE@FIELD=VALUE` (`R1@grid.h_m=10`); an `order` has `PLACE:METRIC` (`R1:rel_l2`), the ends of its
 //! 95 % interval `PLACE:METRIC:low` and `:high`, and the order between neighbours
-//! `PLACE:METRIC@FIELD=COARSE..FINE`.
+//! `PLACE:METRIC@FIELD=COARSE..FINE`. The last kind of place has a row `plateau` as well where the error
+//! no longer falls from COARSE to the finest level.
 
+use crate::budget::Budget;
 use crate::judge::Measurement;
 use crate::norms::{Order, order};
+use crate::plateau::{PLATEAU, Plateau};
 use anechoic_reference::claim::Evidence;
 use serde::{Deserialize, Serialize};
 
@@ -18,8 +21,8 @@ pub const ORDER: &str = "order";
 pub struct Level {
     /// The field's value as asked for.
     pub value: f64,
-    /// What errors are set against: the edge (m) of the cells in use where cells are refined, else
-    /// the value.
+    /// What errors are set against: the edge (m) of the cells in use where cells are refined, the
+    /// distance (m) of points where they are, else the value.
     pub size: f64,
 }
 
@@ -34,9 +37,21 @@ pub struct Curve {
     pub errors: Vec<Result<f64, String>>,
     /// The order over all levels, or why there is none.
     pub order: Result<Order, String>,
+    /// Where the error no longer falls.
+    #[serde(default)]
+    pub plateau: Option<Plateau>,
 }
 
-/// A convergence study of one method.
+/// Convergence studies of one method, one a field, and the budget of its errors.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Refinement {
+    /// The studies, in the order in which they were asked for.
+    pub studies: Vec<Convergence>,
+    /// What each cause contributes to the errors of the scene as it stands, where that was asked.
+    pub budget: Option<Budget>,
+}
+
+/// A convergence study of one method over one field.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Convergence {
     /// The field that was refined, for example `grid.h_m`.
@@ -64,7 +79,17 @@ impl Curve {
             place: place.to_owned(),
             order: numbers.and_then(|e| order(&sizes, &e).map_err(|error| error.to_string())),
             errors,
+            plateau: None,
         }
+    }
+
+    /// The same with its plateau, if it ends in one above the reference's `floor`.
+    pub fn with_plateau(mut self, floor: f64) -> Self {
+        let errors: Result<Vec<f64>, String> = self.errors.iter().cloned().collect();
+        if let (Ok(errors), Ok(order)) = (errors, &self.order) {
+            self.plateau = Plateau::find(&errors, &order.pairwise, floor);
+        }
+        self
     }
 
     /// Where the row of the order stands.
@@ -122,7 +147,43 @@ impl Convergence {
                 add(format!("{place}@{between}"), Ok(*value));
             }
         }
+        all.extend(self.plateaus());
         all
+    }
+
+    /// Where errors no longer fall, and what holds them up.
+    fn plateaus(&self) -> Vec<Measurement> {
+        let row = |curve: &Curve| {
+            let plateau = curve.plateau.as_ref()?;
+            let place = Curve::order_place(&curve.place, &curve.metric);
+            let [from, to] = [self.levels.get(plateau.from)?, self.levels.last()?].map(|l| l.value);
+            let other = plateau.other.as_ref();
+            Some(Measurement {
+                method: self.method.clone(),
+                metric: PLATEAU.to_owned(),
+                place: format!("{place}@{}={from}..{to}", self.over),
+                value: Ok(plateau.order),
+                unit: "1".to_owned(),
+                against: other.map(|other| (other.evidence, plateau.held_by())),
+            })
+        };
+        self.curves.iter().filter_map(row).collect()
+    }
+
+    /// The plateaus in words, one a line.
+    pub fn plateau_notes(&self) -> Vec<String> {
+        let note = |curve: &Curve| {
+            let plateau = curve.plateau.as_ref()?;
+            Some(format!(
+                "plateau: {} at {} no longer falls from {} on (order {:.2}): {}",
+                curve.metric,
+                curve.place,
+                label(&self.over, self.levels.get(plateau.from)?.value),
+                plateau.order,
+                plateau.held_by()
+            ))
+        };
+        self.curves.iter().filter_map(note).collect()
     }
 }
 
@@ -163,6 +224,20 @@ mod tests {
             assert!((row.value.clone().expect("a number") - 2.0).abs() < 1e-9);
         }
         assert_eq!(at_level("A", "grid.h_m", 0.5), "A@grid.h_m=0.5");
+    }
+
+    #[test]
+    fn a_plateau_has_a_row_from_its_first_level_to_the_finest() {
+        let mut flat = study(vec![Ok(0.16), Ok(0.15), Ok(0.149)]);
+        assert_eq!(flat.plateau_notes(), Vec::<String>::new());
+        flat.curves = vec![flat.curves[0].clone().with_plateau(0.0)];
+        let rows = flat.measurements(None);
+        let row = rows
+            .iter()
+            .find(|row| row.metric == PLATEAU)
+            .expect("a plateau");
+        assert_eq!(row.place, "A:rel_l2@grid.h_m=4..1");
+        assert!(flat.plateau_notes()[0].contains("rel_l2 at A no longer falls from grid.h_m=4 on"));
     }
 
     #[test]

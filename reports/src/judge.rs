@@ -269,6 +269,7 @@ pub fn verifies(row: &Row) -> bool {
         Evidence::Certified,
         Evidence::Paper,
         Evidence::Regression,
+        Evidence::Refinement,
     ]
     .iter()
     .any(|kind| kind.verifies() && kind.name() == row.evidence)

@@ -10,7 +10,8 @@
 //! - [`judge`](mod@judge): from measurements and claims to rows with verdicts.
 //! - [`row`]: the flat rows that everything ends in.
 //! - [`ranking`]: methods by their echo, cost beside it, down to the floor of the reference.
-//! - [`convergence`]: errors on several levels, and the orders they fall with.
+//! - [`convergence`]: errors on several levels, and the orders they fall with; [`plateau`]: where they
+//!   no longer fall; [`budget`]: what space, time, boundary and reference contribute.
 //! - [`sweep`]: methods at several points of their parameters.
 //! - [`stability`]: which runs at extremes stay stable.
 //! - [`tradeoff`]: error against cost, and what an echo takes.
@@ -22,6 +23,7 @@
 //! - [`html`]: the report as one self-contained page.
 //! - [`format`](mod@format): numbers as readers want them.
 
+pub mod budget;
 pub mod convergence;
 pub mod diff;
 pub mod export;
@@ -30,6 +32,7 @@ pub mod format;
 pub mod html;
 pub mod judge;
 pub mod norms;
+pub mod plateau;
 pub mod plot;
 pub mod provenance;
 pub mod ranking;

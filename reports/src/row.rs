@@ -35,7 +35,7 @@ pub struct Row {
     pub value: Option<f64>,
     /// Unit; ratios have `1`.
     pub unit: String,
-    /// Kind of evidence of the reference; empty for a mere measurement.
+    /// Kind of evidence of the reference; empty for a mere measurement, but for shares and plateaus.
     pub evidence: String,
     /// Name of the reference; empty for a mere measurement.
     pub reference: String,

@@ -7,6 +7,17 @@ use serde::{Deserialize, Serialize};
 /// The metric of a run's outcome: 1 where it is stable, 0 where it is not.
 pub const STABLE: &str = "stable";
 
+/// The metric of the largest step, over h/c_p, up to which all runs of a method are stable.
+pub const LARGEST_STEP: &str = "largest_stable_step";
+
+/// The metric of spectra: the largest real part of a small mesh's operator, over c_p/h.
+pub const LARGEST_REAL_PART: &str = "largest_real_part";
+
+/// Real parts below this (c_p/h) are rounding: doubled modes at rest have its root.
+const SMALL: f64 = 1e-6;
+/// A real part that rounding moves by more than this share of itself is rounding.
+const SURE: f64 = 0.1;
+
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -100,11 +111,46 @@ pub struct StabilityPart {
     pub points: Vec<StabilityPoint>,
 }
 
+/// The largest step of a method's runs up to which all are stable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LargestStep {
+    /// The method.
+    pub method: String,
+    /// The step over h/c_p, or why there is none.
+    pub value: Result<f64, String>,
+    /// The largest that was tried.
+    pub tried: f64,
+}
+
+/// What the spectrum of a small mesh says.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Opinion {
+    /// Largest real part of the operator over c_p/h.
+    pub growth: f64,
+    /// How far rounding moves it.
+    pub rounding: f64,
+}
+
+/// The opinions on all methods with a layer at one extreme.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpectrumPoint {
+    /// Name of the extreme in rows.
+    pub label: String,
+    /// One entry a method: the opinion, or why there is none.
+    pub entries: Vec<(String, Result<Opinion, String>)>,
+}
+
 /// A study of stability.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stability {
     /// Its parts.
     pub parts: Vec<StabilityPart>,
+    /// The largest stable step of each method.
+    #[serde(default)]
+    pub largest_steps: Vec<LargestStep>,
+    /// What the spectra of small meshes say.
+    #[serde(default)]
+    pub spectra: Vec<SpectrumPoint>,
 }
 
 impl Stability {
@@ -118,6 +164,13 @@ impl Stability {
             }
         }
         names
+    }
+}
+
+impl Opinion {
+    /// Is it rounding alone?
+    pub fn is_rounding(&self) -> bool {
+        self.growth.abs() < SMALL || self.rounding > SURE * self.growth.abs()
     }
 }
 
@@ -148,6 +201,59 @@ pub fn cells(stability: &Stability, part: &StabilityPart) -> Vec<Vec<String>> {
         row
     };
     part.points.iter().map(row).collect()
+}
+
+/// Heads of the table of largest steps.
+pub const STEP_HEAD: [&str; 3] = ["method", "largest stable step over h/c_p", "largest tried"];
+
+/// Its lines.
+pub fn step_cells(stability: &Stability) -> Vec<[String; 3]> {
+    let line = |step: &LargestStep| {
+        let value = match &step.value {
+            Ok(value) => format::short(*value),
+            Err(why) => why.clone(),
+        };
+        [step.method.clone(), value, format::short(step.tried)]
+    };
+    stability.largest_steps.iter().map(line).collect()
+}
+
+/// Methods of the spectra, in the order of their first appearance.
+fn layers(stability: &Stability) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for (name, _) in stability.spectra.iter().flat_map(|point| &point.entries) {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// Heads of the table of spectra.
+pub fn spectrum_head(stability: &Stability) -> Vec<String> {
+    let mut head = vec!["extreme".to_owned()];
+    head.extend(layers(stability).into_iter().map(str::to_owned));
+    head
+}
+
+/// Its lines under [`spectrum_head`]: 0 where nothing grows but rounding.
+pub fn spectrum_cells(stability: &Stability) -> Vec<Vec<String>> {
+    let layers = layers(stability);
+    let text = |value: &Result<Opinion, String>| match value {
+        Ok(opinion) if opinion.is_rounding() => "0".to_owned(),
+        Ok(opinion) if opinion.growth < 0.0 => format!("−{}", format::number(-opinion.growth)),
+        Ok(opinion) => format!("+{}", format::number(opinion.growth)),
+        Err(why) => why.clone(),
+    };
+    let line = |point: &SpectrumPoint| {
+        let mut line = vec![point.label.clone()];
+        line.extend(layers.iter().map(|method| {
+            let found = point.entries.iter().find(|(name, _)| name == method);
+            found.map_or("–".to_owned(), |(_, value)| text(value))
+        }));
+        line
+    };
+    stability.spectra.iter().map(line).collect()
 }
 
 /// Why runs are not stable: extreme, method, outcome at length.
@@ -187,6 +293,32 @@ mod tests {
     }
 
     #[test]
+    fn spectra_tell_growth_from_rounding() {
+        let opinion = |growth, rounding| Ok(Opinion { growth, rounding });
+        let entries = [
+            ("pml", opinion(0.013, 1e-9)),
+            ("damping-layer", opinion(-0.25, 0.0)),
+            ("a", opinion(3e-9, 0.0)),
+            ("b", opinion(7e-4, 2e-4)),
+        ];
+        let stability = Stability {
+            spectra: vec![SpectrumPoint {
+                label: "nu=0.499".into(),
+                entries: entries.map(|(name, x)| (name.to_owned(), x)).to_vec(),
+            }],
+            ..Stability::default()
+        };
+        assert_eq!(
+            spectrum_head(&stability)[1..],
+            ["pml", "damping-layer", "a", "b"]
+        );
+        assert_eq!(
+            spectrum_cells(&stability)[0][1..],
+            ["+0.0130", "−0.250", "0", "0"]
+        );
+    }
+
+    #[test]
     fn every_method_has_a_column() {
         let point = |label: &str, method: &str| StabilityPoint {
             label: label.into(),
@@ -197,6 +329,7 @@ mod tests {
                 title: "step".into(),
                 points: vec![point("a", "pml"), point("b", "dashpot")],
             }],
+            ..Stability::default()
         };
         assert_eq!(head(&stability), ["extreme", "pml", "dashpot"]);
         let cells = cells(&stability, &stability.parts[0]);

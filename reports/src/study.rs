@@ -1,6 +1,6 @@
 //! Everything that a report shows, as data.
 
-use crate::convergence::Convergence;
+use crate::convergence::Refinement;
 use crate::plot::{Drawing, PlotError};
 use crate::provenance::Provenance;
 use crate::ranking::Ranking;
@@ -48,7 +48,7 @@ pub struct Study {
 #[serde(rename_all = "kebab-case")]
 pub enum Upshot {
     /// Errors on several levels, where a scene was refined.
-    Convergence(Convergence),
+    Convergence(Refinement),
     /// Methods at several points, where parameters were varied.
     Sweep(Sweep),
     /// Error against cost.

@@ -1,6 +1,7 @@
 //! Aligned tables for the terminal.
 
-use crate::convergence::{Convergence, Curve};
+use crate::budget::{self, Budget};
+use crate::convergence::{Convergence, Curve, Refinement};
 use crate::format;
 use crate::ranking::{Ranked, Ranking};
 use crate::row::{Row, Verdict};
@@ -146,14 +147,32 @@ pub fn bill_table(bill: &Bill) -> String {
 /// What the runs of a study make together.
 pub fn upshot_table(upshot: &Upshot) -> String {
     match upshot {
-        Upshot::Convergence(convergence) => convergence_table(convergence),
+        Upshot::Convergence(refinement) => refinement_table(refinement),
         Upshot::Sweep(sweep) => sweep_table(sweep),
         Upshot::Tradeoff(tradeoff) => tradeoff_table(tradeoff),
         Upshot::Stability(stability) => stability_table(stability),
     }
 }
 
-/// Errors on all levels with the orders they fall with.
+/// Convergence studies field by field, then the budget.
+fn refinement_table(refinement: &Refinement) -> String {
+    let mut text: Vec<String> = refinement.studies.iter().map(convergence_table).collect();
+    text.extend(refinement.budget.as_ref().map(budget_table));
+    text.join("\n")
+}
+
+/// What each cause contributes to the errors of a scene.
+fn budget_table(own: &Budget) -> String {
+    let head = budget::head(own);
+    let mut table = new_table(&head.iter().map(String::as_str).collect::<Vec<_>>());
+    align_right(&mut table, &(4..head.len()).collect::<Vec<_>>());
+    for line in budget::cells(own) {
+        table.add_row(line);
+    }
+    finish(&table, "share: over the true series\n")
+}
+
+/// Errors on all levels with the orders they fall with, and where they no longer fall.
 pub fn convergence_table(convergence: &Convergence) -> String {
     let head = convergence_head(convergence);
     let mut table = new_table(&head.iter().map(String::as_str).collect::<Vec<_>>());
@@ -162,7 +181,13 @@ pub fn convergence_table(convergence: &Convergence) -> String {
     for curve in &convergence.curves {
         table.add_row(convergence_cells(curve));
     }
-    finish(&table, "")
+    let notes = convergence.plateau_notes();
+    finish(
+        &table,
+        &notes
+            .iter()
+            .fold(String::new(), |text, note| text + note + "\n"),
+    )
 }
 
 /// Echo and cost of all methods at all points, part by part.
@@ -220,10 +245,27 @@ pub fn stability_table(study: &Stability) -> String {
         }
         text += &format!("{}\n{}\n", part.title, finish(&table, ""));
     }
+    text += &plain_table(&stability::STEP_HEAD, &stability::step_cells(study), "\n");
+    if !study.spectra.is_empty() {
+        let head = stability::spectrum_head(study);
+        let note =
+            "largest real part of the operator of a small mesh with the sides, over c_p/h\n\n";
+        text += &plain_table(&head, &stability::spectrum_cells(study), note);
+    }
     for [extreme, method, why] in stability::troubles(study) {
         text += &format!("{method} at {extreme}: {why}\n");
     }
     text
+}
+
+/// A table of texts whose columns but the first are numbers.
+fn plain_table<R: AsRef<[String]>>(head: &[impl AsRef<str>], rows: &[R], note: &str) -> String {
+    let mut table = new_table(&head.iter().map(AsRef::as_ref).collect::<Vec<_>>());
+    align_right(&mut table, &(1..head.len()).collect::<Vec<_>>());
+    for row in rows {
+        table.add_row(row.as_ref());
+    }
+    finish(&table, note)
 }
 
 /// Head of the table of a convergence study.

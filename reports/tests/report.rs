@@ -4,7 +4,7 @@
 //! With `ANECHOIC_PICTURES=DIR` in the environment the page is also written there, to look at.
 
 use anechoic_reference::claim::{Accept, Claim, Evidence};
-use anechoic_reports::convergence::{Convergence, Curve, Level};
+use anechoic_reports::convergence::{Convergence, Curve, Level, Refinement};
 use anechoic_reports::html::report;
 use anechoic_reports::judge::{Measurement, cost_measurements, judge};
 use anechoic_reports::plot::{BarPlot, Bars, Line, SpaceTimePlot, TracePanel, TracePlot};
@@ -244,7 +244,10 @@ fn study() -> Study {
         command: "anechoic compare compression-1d --profile quick".to_owned(),
         ranking: Some(Ranking::from_rows(&rows, "echo_ratio", Some(floor))),
         rows,
-        upshot: Some(Upshot::Convergence(convergence())),
+        upshot: Some(Upshot::Convergence(Refinement {
+            studies: vec![convergence()],
+            budget: None,
+        })),
         runs,
         ledger: vec![
             LedgerEntry {

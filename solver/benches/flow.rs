@@ -77,6 +77,7 @@ impl Run {
                 volume: 0.25,
                 density: ELASTIC.density,
                 carry,
+                mean_volumes: false,
                 shared,
             })
             .expect("places within the grid");
@@ -102,7 +103,11 @@ impl Run {
         } = &self.sums;
         for (k, (v, a)) in self.v.iter_mut().zip(&mut self.a).enumerate() {
             // nodes that hardly any point sees rest
-            let per_mass = if mass[k] > 0.02 * ELASTIC.density { 1.0 / mass[k] } else { 0.0 };
+            let per_mass = if mass[k] > 0.02 * ELASTIC.density {
+                1.0 / mass[k]
+            } else {
+                0.0
+            };
             *a = force[k].map(|f| f * per_mass);
             *v = std::array::from_fn(|i| momentum[k][i] * per_mass + dt * a[i]);
         }

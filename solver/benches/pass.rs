@@ -28,7 +28,7 @@ fn filled(kind: BasisKind) -> (Box<dyn Discretisation<2>>, Points<2>) {
     let mut points = Points::default();
     for cell in 0..CELLS[0] * CELLS[1] {
         let (x, y) = (cell % CELLS[0], cell / CELLS[0]);
-        points.fill_cell(&[x as f64 * H, y as f64 * H], &[H; 2], 2, 2000.0);
+        points.fill_cell(&[x as f64 * H, y as f64 * H], &[H; 2], 2, None, 2000.0);
     }
     let mut disc = on_grid(kind, &grid, 2);
     disc.place(&points.place)

@@ -24,6 +24,8 @@ fn problem(point_mode: PointMode, transfer: Transfer, layer: &str, thickness: f6
             upper: [3000.0, 0.0],
         },
         cell_size: 20.0,
+        aspect: 1.0,
+        face_gap: None,
         basis: BasisKind::Linear,
         scheme: Scheme::Newmark,
         mass: MassKind::Lumped,

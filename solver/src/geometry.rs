@@ -27,7 +27,7 @@ impl<const D: usize> Geometry<D> {
     pub(crate) fn new(problem: &Problem<D>) -> Result<Self, SolverError> {
         check(problem)?;
         let moving = problem.point_mode == PointMode::Moving;
-        let h = fitted_cell(&problem.target, problem.cell_size);
+        let h = fitted_cell(&problem.target, problem.edges());
         let mut material_box = problem.target;
         let mut assigned = Vec::new();
         let mut margin = [[0; 2]; D];
@@ -133,10 +133,10 @@ fn whole_cells(length: f64, h: f64) -> f64 {
 
 /// Edges (m) of the cells in use: the longest that divide the lengths of `target` and are not longer
 /// than `largest` (m).
-pub fn fitted_cell<const D: usize>(target: &Aabb<D>, largest: f64) -> Vector<D> {
+pub fn fitted_cell<const D: usize>(target: &Aabb<D>, largest: Vector<D>) -> Vector<D> {
     std::array::from_fn(|a| {
         let length = target.upper[a] - target.lower[a];
-        length / whole_cells(length, largest)
+        length / whole_cells(length, largest[a])
     })
 }
 
@@ -241,6 +241,7 @@ fn check_corners(assigned: &[Assigned]) -> Result<(), SolverError> {
 fn check<const D: usize>(problem: &Problem<D>) -> Result<(), SolverError> {
     let positive = [
         ("grid.h_m", problem.cell_size),
+        ("grid.aspect", problem.aspect),
         ("time.dt_s", problem.dt),
         ("time.end_s", problem.end_time),
         ("material.E_Pa", problem.material.youngs_modulus),
@@ -265,10 +266,10 @@ fn check<const D: usize>(problem: &Problem<D>) -> Result<(), SolverError> {
         if !(length > 0.0 && length.is_finite()) {
             return Err(setup_error(field, format!("{length} is not positive")));
         }
-        if problem.cell_size > length {
+        if problem.edges()[axis] > length {
             let reason = format!(
                 "a cell of {} m is larger than the body's {length} m ({field})",
-                problem.cell_size
+                problem.edges()[axis]
             );
             return Err(setup_error("grid.h_m", reason));
         }
@@ -288,6 +289,14 @@ fn check<const D: usize>(problem: &Problem<D>) -> Result<(), SolverError> {
             "time.mass",
             "explicit steps need lumped masses",
         ));
+    }
+    if let Some(gap) = problem.face_gap
+        && !(gap > 0.0 && gap < 0.5 && per_axis > 1)
+    {
+        let reason = format!(
+            "{gap} is not between 0 and 0.5, both excluded, of cells with two points along each axis at least"
+        );
+        return Err(setup_error("points.face_gap", reason));
     }
     let keeps = problem.transfer == Transfer::Keep;
     if keeps && problem.point_mode == PointMode::Moving {

@@ -70,16 +70,28 @@ impl<const D: usize> Points<D> {
     /// Place, volume and mass of a point in bytes.
     pub(crate) const BYTES: usize = size_of::<Vector<D>>() + 2 * size_of::<f64>();
 
-    /// Fills a cell with `per_axis`^D points at the centres of its equal parts.
-    pub fn fill_cell(&mut self, lower: &Vector<D>, h: &Vector<D>, per_axis: usize, density: f64) {
+    /// Fills a cell with `per_axis`^D points at the centres of its equal parts, or, with a `face_gap`, at
+    /// equal distances between its faces but for that share of its edges.
+    pub fn fill_cell(
+        &mut self,
+        lower: &Vector<D>,
+        h: &Vector<D>,
+        per_axis: usize,
+        face_gap: Option<f64>,
+        density: f64,
+    ) {
         let part = h.map(|h| h / per_axis as f64);
         let volume = part.iter().product();
+        let local = |a: usize, i: usize| match face_gap {
+            None => part[a] * (i as f64 + 0.5),
+            Some(gap) => h[a] * (gap + (1.0 - 2.0 * gap) * i as f64 / (per_axis - 1) as f64),
+        };
         for k in 0..per_axis.pow(D as u32) {
             let mut rest = k;
             let place = std::array::from_fn(|a| {
                 let i = rest % per_axis;
                 rest /= per_axis;
-                lower[a] + part[a] * (i as f64 + 0.5)
+                lower[a] + local(a, i)
             });
             self.place.push(place);
             self.volume.push(volume);

@@ -230,6 +230,9 @@ pub struct FlowSetup<const D: usize> {
     pub velocity: [f64; D],
     /// Rigid bodies.
     pub intruders: Vec<Intruder>,
+    /// Take the divergence of the velocity from cells instead of points (F-bar), against locking of what
+    /// hardly changes its volume?
+    pub mean_volumes: bool,
     /// Share the work of a step with the threads of the pool that the run is in?
     pub shared: bool,
     /// Empty space around the material (m): `room[axis][0]` below, `room[axis][1]` above.
@@ -246,6 +249,7 @@ impl<const D: usize> Default for FlowSetup<D> {
             k0: None,
             velocity: [0.0; D],
             intruders: Vec::new(),
+            mean_volumes: false,
             shared: false,
             room: [[0.0; 2]; D],
         }
@@ -266,6 +270,8 @@ pub struct Problem<const D: usize> {
     pub target: Aabb<D>,
     /// Largest edge of a cell (m); cells are made to fit the body.
     pub cell_size: f64,
+    /// Edge of a cell along x over those along the other axes; the longer is `cell_size`.
+    pub aspect: f64,
     /// Shape functions.
     pub basis: BasisKind,
     /// Time integration.
@@ -282,6 +288,9 @@ pub struct Problem<const D: usize> {
     pub transfer: Transfer,
     /// Material points in a cell: a D-th power.
     pub points_per_cell: usize,
+    /// Distance of a cell's outermost points from its faces over its edges; `None`: points lie at the
+    /// centres of equal parts.
+    pub face_gap: Option<f64>,
     /// The material of target and layers.
     pub material: Elastic,
     /// What explicit steps of moving points have besides.
@@ -298,7 +307,20 @@ pub struct Problem<const D: usize> {
     pub rel_tol: f64,
 }
 
+/// Edges (m) of cells whose longer one is given, by the edge along x over the others.
+pub fn edges<const D: usize>(longest: f64, aspect: f64) -> [f64; D] {
+    std::array::from_fn(|axis| match axis {
+        0 => longest * aspect.min(1.0),
+        _ => longest / aspect.max(1.0),
+    })
+}
+
 impl<const D: usize> Problem<D> {
+    /// Largest edges of a cell (m).
+    pub fn edges(&self) -> [f64; D] {
+        edges(self.cell_size, self.aspect)
+    }
+
     /// Steps that it takes to reach the end.
     pub fn steps(&self) -> usize {
         (self.end_time / self.dt - 1e-9).ceil().max(1.0) as usize

@@ -106,7 +106,7 @@ impl<const D: usize> Sampler<D> {
         let first = std::array::from_fn(|a| index(problem.target.lower[a], a));
         let counts: [usize; D] =
             std::array::from_fn(|a| index(problem.target.upper[a], a) - first[a] + 1);
-        let shown = match probes.snapshot_times.is_empty() {
+        let shown = match probes.snapshot_times.is_empty() || model.flow.is_some() {
             true => 0,
             false => counts.iter().product(),
         };
@@ -166,7 +166,10 @@ impl<const D: usize> Sampler<D> {
             .is_some_and(|s| *s <= t + 0.5 * problem.dt)
         {
             self.snapshots.remove(0);
-            record.snapshots.push(self.snapshot(model, t));
+            record.snapshots.push(match model.flow {
+                Some(_) => velocity_field(problem, model, t),
+                None => self.snapshot(model, t),
+            });
         }
     }
 
@@ -235,6 +238,57 @@ impl<const D: usize> Sampler<D> {
             spacing,
             columns: columns.collect(),
         }
+    }
+}
+
+/// Most samples along an axis of a velocity field: as many as a picture shows.
+const MOST_ALONG: usize = 400;
+
+/// The velocity of flowing material on the nodes of the body and the room around it, or every so many of
+/// them; zero where there is none.
+fn velocity_field<const D: usize>(problem: &Problem<D>, model: &Model<D>, t: f64) -> Snapshot {
+    let grid = &model.grid;
+    let index = |x: f64, a: usize| ((x - grid.origin[a]) / grid.h[a]).round().max(0.0) as usize;
+    let (body, room) = (&problem.target, &problem.flow.room);
+    let first: [usize; D] = std::array::from_fn(|a| index(body.lower[a] - room[a][0], a));
+    let nodes_along = |a: usize| {
+        let last = index(body.upper[a] + room[a][1], a);
+        last.min(grid.cells[a]) - first[a] + 1
+    };
+    let most = (0..D).map(nodes_along).max().unwrap_or(1);
+    let stride = most.div_ceil(MOST_ALONG);
+    let (mut counts, mut origin, mut spacing) = ([1; 3], [0.0; 3], [0.0; 3]);
+    for a in 0..D {
+        counts[a] = (nodes_along(a) - 1) / stride + 1;
+        origin[a] = grid.origin[a] + grid.h[a] * first[a] as f64;
+        spacing[a] = grid.h[a] * stride as f64;
+    }
+    let node = |k: usize| {
+        let mut rest = k;
+        let index = std::array::from_fn(|a| {
+            let i = rest % counts[a];
+            rest /= counts[a];
+            first[a] + i * stride
+        });
+        grid.node(index)
+    };
+    let total = counts.iter().product();
+    let (nodes, lag) = (&model.nodes, model.velocity_lag());
+    let value = |n: usize, i: usize| match nodes.active[n] {
+        true => nodes.v[n][i] + lag * nodes.a[n][i],
+        false => 0.0,
+    };
+    let columns = (0..D).map(|i| Column {
+        name: format!("v{}", AXES[i]),
+        unit: "m/s".to_owned(),
+        values: (0..total).map(|k| value(node(k), i)).collect(),
+    });
+    Snapshot {
+        time: t,
+        counts,
+        origin,
+        spacing,
+        columns: columns.collect(),
     }
 }
 

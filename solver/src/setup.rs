@@ -191,7 +191,8 @@ fn fill<const D: usize>(
         for cell in 0..cells {
             if geometry.owner(&problem.target, &geometry.cell_centre(cell)) == wanted {
                 let lower = geometry.cell_corner(cell);
-                points.fill_cell(&lower, &h, geometry.per_axis, problem.material.density);
+                let (n, gap) = (geometry.per_axis, problem.face_gap);
+                points.fill_cell(&lower, &h, n, gap, problem.material.density);
             }
         }
         if points.len() > start {
@@ -220,7 +221,7 @@ fn context<'a, const D: usize>(
         velocity: problem.flow.velocity,
         transfer: problem.transfer,
         mass: problem.mass,
-        explicit: problem.scheme == Scheme::Explicit,
+        explicit_dt: (problem.scheme == Scheme::Explicit).then_some(problem.dt),
         end_time: problem.end_time,
         points,
         layer,

@@ -3,6 +3,7 @@
 use crate::half_space;
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::linear::Moment;
+use anechoic_solver::linear::dense::eigenvalues;
 use anechoic_solver::physics::model::Model;
 use anechoic_solver::problem::{PointMode, Problem, Transfer};
 use anechoic_solver::setup;
@@ -66,42 +67,9 @@ pub fn probed(problem: &Problem<2>) -> (Model<2>, Vec<usize>, Mat<f64>) {
 ///
 /// # Panics
 /// When the eigenvalues cannot be computed.
-pub fn largest_real_part(mut a: Mat<f64>) -> f64 {
-    // entries span ten orders of magnitude (stiffness over mass against rates): diagonal scaling by
-    // powers of two makes the eigenvalues as accurate as the rest
-    balance(&mut a);
-    let eigenvalues = a
-        .eigenvalues()
-        .expect("a dense eigenproblem of finite numbers");
-    eigenvalues
-        .iter()
-        .map(|z| z.re)
+pub fn largest_real_part(a: &Mat<f64>) -> f64 {
+    let all = eigenvalues(a.nrows(), |i, j| a[(i, j)]).expect("a matrix of finite numbers");
+    all.iter()
+        .map(|[re, _]| *re)
         .fold(f64::NEG_INFINITY, f64::max)
-}
-
-/// Osborne's balancing: similar rows and columns, eigenvalues unchanged to the last bit.
-fn balance(a: &mut Mat<f64>) {
-    let n = a.nrows();
-    for _ in 0..20 {
-        let mut quiet = true;
-        for i in 0..n {
-            let others = || (0..n).filter(|j| *j != i);
-            let column: f64 = others().map(|j| a[(j, i)].abs()).sum();
-            let row: f64 = others().map(|j| a[(i, j)].abs()).sum();
-            if column == 0.0 || row == 0.0 {
-                continue;
-            }
-            let factor = 2.0_f64.powf((0.5 * (row / column).log2()).round());
-            if factor != 1.0 {
-                quiet = false;
-                for j in 0..n {
-                    a[(i, j)] /= factor;
-                    a[(j, i)] *= factor;
-                }
-            }
-        }
-        if quiet {
-            return;
-        }
-    }
 }

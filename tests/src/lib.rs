@@ -5,6 +5,7 @@
 pub mod dense;
 pub mod explicit;
 pub mod program;
+pub mod space;
 pub mod study;
 
 pub mod twin;
@@ -12,6 +13,7 @@ mod twin_shift;
 
 use anechoic_solver::Monitor;
 use anechoic_solver::boundary::SideMethod;
+use anechoic_solver::flow::{Dimension, Space};
 use anechoic_solver::probe::{Probes, Receiver};
 use anechoic_solver::problem::{
     Aabb, BasisKind, Drive, Elastic, FlowSetup, MassKind, PointMode, Problem, Scheme, Side,
@@ -57,7 +59,10 @@ impl Monitor for Unwatched {
 ///
 /// # Panics
 /// When the problem cannot be set up or the run fails.
-pub fn solved(problem: &Problem<2>) -> Record {
+pub fn solved<const D: usize>(problem: &Problem<D>) -> Record
+where
+    Space: Dimension<D>,
+{
     let outcome = anechoic_solver::solve(problem, &Unwatched).expect("the problem is well put");
     assert_eq!(outcome.error, None);
     outcome.record
@@ -72,6 +77,8 @@ pub fn block(transfer: Transfer, point_mode: PointMode) -> Problem<2> {
             upper: [4.0, 3.0],
         },
         cell_size: 0.5,
+        aspect: 1.0,
+        face_gap: None,
         basis: BasisKind::Linear,
         scheme: Scheme::Newmark,
         mass: MassKind::Lumped,
@@ -106,6 +113,8 @@ pub fn column(h: f64, base: SideMethod) -> Problem<2> {
             upper: [4.0 * h, 50.0],
         },
         cell_size: h,
+        aspect: 1.0,
+        face_gap: None,
         dt: 0.005 * h,
         end_time: 3.0,
         material: Elastic {
@@ -156,6 +165,8 @@ pub fn half_space(layer: SideMethod, point_mode: PointMode, transfer: Transfer) 
             upper: [800.0, 0.0],
         },
         cell_size: 20.0,
+        aspect: 1.0,
+        face_gap: None,
         dt: 0.01,
         end_time: 3.0,
         material: Elastic {

@@ -106,7 +106,8 @@ pub fn judged(methods: &[&str], change: impl Fn(&str, &mut Problem<2>)) -> Vec<R
 /// When the scene is refused or the problem cannot be set up.
 pub fn altered(request: &Request, method: Option<&str>, change: impl Fn(&mut Problem<2>)) -> Run {
     let prepared = show(request, method).unwrap_or_else(|error| panic!("{error}"));
-    let mut problem = prepared.scene.problem();
+    let posed = prepared.scene.posed().plane();
+    let mut problem = posed.expect("altered scenes are plane");
     change(&mut problem);
     let record = solved(&problem);
     Run {

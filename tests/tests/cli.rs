@@ -391,13 +391,12 @@ fn what_is_no_refinement_is_told_before_anything_is_solved() {
     for (over, part) in [
         ("grid.h_m=4", "two values at least"),
         ("grid.h_m=4,two", "`two` is no positive number"),
-        ("grid.hm=4,2", "grid.h_m"),
-        (
-            "receivers.A.x_m=1,0.5",
-            "is no number that errors could fall with",
-        ),
+        ("grid.hm=4,2", "did you mean `grid.h_m`"),
+        ("receivers.A.x_m=1,0.5", "refines nothing"),
+        ("material.E_Pa=1e6,2e6", "refines nothing"),
+        ("points.per_cell=4,5", "--over points.per_cell=5: "),
         ("grid.h_m=30,26", "the same cells of 25 m"),
-        ("pml.thickness_m=10,20", "no side uses that method"),
+        ("pml.thickness_m=10,20", "refines nothing"),
     ] {
         let output = anechoic(folder.path(), &["converge", CASE, "--over", over]);
         assert_eq!(output.code, 2, "{over}: {}", output.out);

@@ -123,6 +123,9 @@ fn what_is_not_alike_is_usage_and_what_is_broken_is_named() {
     diff(folder.path(), &["a", "a", "--rel-tol", "-1"], 2);
     std::fs::create_dir(folder.path().join("empty")).expect("a folder");
     diff(folder.path(), &["a", "empty"], 2);
+    let other = format!("{study}/study.json");
+    let output = diff(folder.path(), &[&other, &other], 2);
+    assert!(output.err.contains("holds no rows"), "{}", output.err);
     let summary = folder.path().join(&study).join("summary.json");
     let text = read(&summary);
     std::fs::write(&summary, &text[..text.len() / 2]).expect("written");

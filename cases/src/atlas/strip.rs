@@ -65,6 +65,7 @@ impl Strip {
                     upper: [cells * h, h],
                 },
                 cell_size: h,
+                aspect: 1.0,
                 point_mode: PointMode::Frozen,
                 transfer: Transfer::Keep,
                 sides: [[free(), method.clone()], [free(), free()]],

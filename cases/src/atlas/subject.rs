@@ -30,7 +30,12 @@ impl Subject {
     /// # Errors
     /// A scene without waves.
     pub fn of(scene: &Prepared) -> Result<Self, AtlasError> {
-        let like = scene.scene.problem();
+        let Some(like) = scene.scene.posed().plane() else {
+            return Err(AtlasError::Unsupported {
+                field: "case",
+                reason: "it is three-dimensional, and the atlas is of plane strain",
+            });
+        };
         if like.scheme == Scheme::QuasiStatic {
             return Err(AtlasError::Unsupported {
                 field: "time.scheme",
@@ -46,6 +51,12 @@ impl Subject {
                 reason: "the waves' frequency is that of the scene's source, and it has none",
             });
         };
+        if like.aspect != 1.0 {
+            return Err(AtlasError::Unsupported {
+                field: "grid.aspect",
+                reason: "a strip has square cells; leave it out",
+            });
+        }
         let [_, [bottom, _]] = &like.sides;
         let [[left, right], [_, top]] = &like.sides;
         let sides = [right, bottom, left, top];
@@ -155,6 +166,7 @@ impl Subject {
     pub fn resting(&self) -> Problem<2> {
         Problem {
             cell_size: self.h,
+            aspect: 1.0,
             point_mode: PointMode::Frozen,
             transfer: Transfer::Keep,
             ..self.like.clone()

@@ -5,6 +5,7 @@
 //! anywhere in the body, so that series, energies and fields are all free of echo, and it is cut
 //! short by [`CELLS_AHEAD`], since implicit schemes spread a little of everything ahead of the wave.
 
+use crate::posed::{Posed, either};
 use anechoic_solver::problem::{Drive, Problem, Side};
 
 /// Cells that the discrete wave may run ahead of the true one: 10 left 1e-5 of the echoes to the far
@@ -14,9 +15,14 @@ const CELLS_AHEAD: f64 = 25.0;
 /// The method of sides that end far away.
 pub const EXTENDED: &str = "extended";
 
+/// [`with_buffers`] in either number of dimensions.
+pub fn buffered(problem: &Posed, factor: f64) -> Posed {
+    either!(problem, problem => with_buffers(problem, factor).into())
+}
+
 /// The problem with as much material behind each extended side as its end needs, stretched by
 /// `factor`; a side that states its thickness keeps it.
-pub fn with_buffers(problem: &Problem<2>, factor: f64) -> Problem<2> {
+pub fn with_buffers<const D: usize>(problem: &Problem<D>, factor: f64) -> Problem<D> {
     let mut extended = problem.clone();
     for (axis, pair) in extended.sides.iter_mut().enumerate() {
         for (end, method) in pair.iter_mut().enumerate() {
@@ -38,7 +44,7 @@ pub fn with_buffers(problem: &Problem<2>, factor: f64) -> Problem<2> {
 
 /// Until when (s) nothing can have come back into the body; `None` where no side is extended by a
 /// stated thickness.
-pub fn serves_until(problem: &Problem<2>) -> Option<f64> {
+pub fn serves_until<const D: usize>(problem: &Problem<D>) -> Option<f64> {
     let margin = CELLS_AHEAD * problem.cell_size;
     let path = |side: Side| {
         let method = &problem.sides[side.axis][usize::from(side.upper)];
@@ -46,28 +52,32 @@ pub fn serves_until(problem: &Problem<2>) -> Option<f64> {
         let thickness = thickness.filter(|_| method.method == EXTENDED)?;
         Some(distance(problem, side) + 2.0 * thickness - margin)
     };
-    let shortest = sides().filter_map(path).reduce(f64::min)?;
+    let shortest = sides::<D>().filter_map(path).reduce(f64::min)?;
     Some(shortest / problem.material.p_speed())
 }
 
 /// Added material (m) that lets a side serve until the end of the problem.
-fn needed(problem: &Problem<2>, side: Side) -> f64 {
+fn needed<const D: usize>(problem: &Problem<D>, side: Side) -> f64 {
     let reach = problem.material.p_speed() * problem.last_time();
     let margin = CELLS_AHEAD * problem.cell_size;
     // At least the margin, also where the wave hardly gets out of the body.
     (0.5 * (reach + margin - distance(problem, side))).max(margin)
 }
 
-fn sides() -> impl Iterator<Item = Side> {
-    [Side::LEFT, Side::RIGHT, Side::BOTTOM, Side::TOP].into_iter()
+/// All sides of a box, axis by axis, the lower end first.
+pub(super) fn sides<const D: usize>() -> impl Iterator<Item = Side> {
+    (0..2 * D).map(|k| Side {
+        axis: k / 2,
+        upper: k % 2 == 1,
+    })
 }
 
 /// Distance (m) of the nearest source from a side of the body.
-fn distance(problem: &Problem<2>, side: Side) -> f64 {
+fn distance<const D: usize>(problem: &Problem<D>, side: Side) -> f64 {
     let target = &problem.target;
     let (lower, upper) = (target.lower[side.axis], target.upper[side.axis]);
     let from = |at: f64| if side.upper { upper - at } else { at - lower };
-    let of_drive = |drive: &Drive<2>| match drive {
+    let of_drive = |drive: &Drive<D>| match drive {
         Drive::PointForce { place, .. } => from(place[side.axis]),
         Drive::SideVelocity { side: driven, .. } if driven.axis == side.axis => {
             from(if driven.upper { upper } else { lower })
@@ -89,7 +99,7 @@ mod tests {
     use crate::scenes::point_source::PointSource;
 
     fn problem() -> Problem<2> {
-        PointSource::default().extended().unwrap()
+        PointSource::default().extended().unwrap().plane().unwrap()
     }
 
     #[test]

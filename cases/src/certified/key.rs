@@ -4,21 +4,31 @@
 //! it: the end of the run (a longer reference serves a shorter run), what else is sampled, and which
 //! linear solver reaches the tolerance.
 
-use super::causality::EXTENDED;
+use super::causality::{EXTENDED, sides};
+use crate::posed::{Posed, either};
 use anechoic_solver::boundary::{SideMethod, Value as Param};
-use anechoic_solver::problem::{Drive, MassKind, Problem, Side};
+use anechoic_solver::problem::{Drive, MassKind, Problem};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use toml::{Table, Value};
 
 /// The problem as a table, extended sides without their thickness.
-pub fn table(problem: &Problem<2>) -> Table {
+pub fn table(problem: &Posed) -> Table {
+    either!(problem, problem => table_of(problem))
+}
+
+/// The hash of a problem.
+pub fn hash_of(problem: &Posed) -> String {
+    hash(&table(problem))
+}
+
+fn table_of<const D: usize>(problem: &Problem<D>) -> Table {
     let mut table = Table::new();
     let mut put = |key: &str, value: Value| {
         table.insert(key.to_owned(), value);
     };
-    put("target_lower_m", pair(problem.target.lower));
-    put("target_upper_m", pair(problem.target.upper));
+    put("target_lower_m", numbers(problem.target.lower));
+    put("target_upper_m", numbers(problem.target.upper));
     put("cell_m", problem.cell_size.into());
     put("basis", word(&problem.basis));
     put("scheme", word(&problem.scheme));
@@ -33,8 +43,14 @@ pub fn table(problem: &Problem<2>) -> Table {
     put("E_Pa", problem.material.youngs_modulus.into());
     put("nu", problem.material.poissons_ratio.into());
     put("rho_kg_m3", problem.material.density.into());
+    if problem.aspect != 1.0 {
+        put("aspect", problem.aspect.into());
+    }
+    if let Some(gap) = problem.face_gap {
+        put("face_gap", gap.into());
+    }
     put("rel_tol", problem.rel_tol.into());
-    for side in [Side::LEFT, Side::RIGHT, Side::BOTTOM, Side::TOP] {
+    for side in sides::<D>() {
         let method = &problem.sides[side.axis][usize::from(side.upper)];
         put(side.name(), of_side(method));
     }
@@ -43,7 +59,7 @@ pub fn table(problem: &Problem<2>) -> Table {
     let receivers = problem.probes.receivers.iter().map(|receiver| {
         let mut entry = Table::new();
         entry.insert("name".into(), receiver.name.clone().into());
-        entry.insert("place_m".into(), pair(receiver.place));
+        entry.insert("place_m".into(), numbers(receiver.place));
         Value::Table(entry)
     });
     put("receivers", Value::Array(receivers.collect()));
@@ -59,7 +75,7 @@ pub fn hash(table: &Table) -> String {
         .collect()
 }
 
-fn pair(values: [f64; 2]) -> Value {
+fn numbers<const D: usize>(values: [f64; D]) -> Value {
     Value::Array(values.map(Value::Float).to_vec())
 }
 
@@ -84,7 +100,7 @@ fn of_side(method: &SideMethod) -> Value {
     Value::Table(table)
 }
 
-fn of_drive(drive: &Drive<2>) -> Value {
+fn of_drive<const D: usize>(drive: &Drive<D>) -> Value {
     let mut table = Table::new();
     let pulse = match drive {
         Drive::SideVelocity { side, pulse } => {
@@ -96,8 +112,8 @@ fn of_drive(drive: &Drive<2>) -> Value {
             direction,
             pulse,
         } => {
-            table.insert("force_at_m".into(), pair(*place));
-            table.insert("direction".into(), pair(*direction));
+            table.insert("force_at_m".into(), numbers(*place));
+            table.insert("direction".into(), numbers(*direction));
             pulse
         }
     };
@@ -130,8 +146,10 @@ mod tests {
             of(|s| s.boundary.left = SideMethod::new("dashpot")),
             hash_of_default
         );
-        let changes: [fn(&mut PointSource); 7] = [
+        let changes: [fn(&mut PointSource); 9] = [
             |s| s.grid.h_m = 10.0,
+            |s| s.grid.aspect = Some(2.0),
+            |s| s.points.face_gap = Some(0.1),
             |s| s.solver.rel_tol = 1e-8,
             |s| s.material.nu = 0.3,
             |s| s.source.x_m = 1140.0,

@@ -3,8 +3,8 @@
 
 use super::{Certified, file, key, solve};
 use crate::error::CaseError;
+use crate::posed::Posed;
 use crate::store::write_file;
-use anechoic_solver::problem::Problem;
 use std::path::{Path, PathBuf};
 
 /// Folder of references in a results folder.
@@ -41,8 +41,8 @@ impl Library {
     ///
     /// # Errors
     /// [`CaseError::BadRecord`] for a damaged one.
-    pub fn find(&self, case: &str, problem: &Problem<2>) -> Result<Option<Certified>, CaseError> {
-        let hash = key::hash(&key::table(problem));
+    pub fn find(&self, case: &str, problem: &Posed) -> Result<Option<Certified>, CaseError> {
+        let hash = key::hash_of(problem);
         let shipped = file::read(case, &hash, |name| {
             anechoic_reference::certified::table(name).map(str::to_owned)
         })?;
@@ -63,7 +63,7 @@ impl Library {
     ///
     /// # Errors
     /// As [`Library::find`], [`solve::compute`] and [`Library::save`].
-    pub fn obtain(&self, case: &str, problem: &Problem<2>) -> Result<Certified, CaseError> {
+    pub fn obtain(&self, case: &str, problem: &Posed) -> Result<Certified, CaseError> {
         if let Some(found) = self.find(case, problem)?
             && found.about.serves(problem.last_time()).is_ok()
         {

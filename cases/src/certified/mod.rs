@@ -23,11 +23,11 @@ use toml::Table;
 pub struct Certified {
     /// What it is and where it comes from.
     pub about: About,
-    /// Displacements of the receivers: `NAME_ux`, `NAME_uy` (m).
+    /// Displacements of the receivers: `NAME_ux`, `NAME_uy` (m), and `NAME_uz` in three dimensions.
     pub receivers: SeriesTable,
     /// Kinetic and strain energy of the target (J per metre of thickness).
     pub energy: SeriesTable,
-    /// Displacements of every second node of the target, for pictures.
+    /// Displacements of every second node of the target, for pictures; in three dimensions of its back side.
     pub snapshots: Vec<Snapshot>,
 }
 

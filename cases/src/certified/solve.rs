@@ -1,20 +1,23 @@
 //! Computing a certified reference, and its floor: its own change under a larger buffer and a tenth
 //! of the solver's tolerance.
 
-use super::causality::{EXTENDED, serves_until, with_buffers};
+use super::causality::{EXTENDED, buffered, serves_until, sides};
 use super::{About, Certified, key};
 use crate::error::CaseError;
+use crate::posed::{Posed, either};
 use crate::progress::Progress;
 use crate::provenance;
-use anechoic_solver::problem::{Problem, Side};
+use anechoic_solver::problem::Problem;
 use anechoic_solver::record::{Column, Record, SeriesTable, Status};
-use anechoic_solver::{bill, solve};
 use cpu_time::ThreadTime;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// The control run's buffer over that of the reference.
 const LARGER: f64 = 1.1;
+
+/// How names of the receivers' columns end; the last in three dimensions alone.
+const DISPLACEMENTS: [&str; 3] = ["_ux", "_uy", "_uz"];
 
 /// The control run's tolerance over that of the reference.
 const FINER: f64 = 0.1;
@@ -23,8 +26,8 @@ const FINER: f64 = 0.1;
 ///
 /// # Errors
 /// [`CaseError::Solver`] when it cannot be set up or fails, [`CaseError::Stopped`].
-pub fn compute(case: &str, problem: &Problem<2>) -> Result<Certified, CaseError> {
-    let extended = with_buffers(problem, 1.0);
+pub fn compute(case: &str, problem: &Posed) -> Result<Certified, CaseError> {
+    let extended = buffered(problem, 1.0);
     let mut record = run(&extended)?;
     let table = key::table(&extended);
     let hash = key::hash(&table);
@@ -33,8 +36,8 @@ pub fn compute(case: &str, problem: &Problem<2>) -> Result<Certified, CaseError>
         about: About {
             case: case.to_owned(),
             end_s: record.receivers.times.last().copied().unwrap_or(0.0),
-            serves_until_s: serves_until(&extended).unwrap_or(0.0),
-            buffer_m: buffers(&extended),
+            serves_until_s: either!(&extended, problem => serves_until(problem)).unwrap_or(0.0),
+            buffer_m: either!(&extended, problem => buffers(problem)),
             floor_m: None,
             provenance: provenance::of(&hash),
             cost: record.cost,
@@ -42,7 +45,7 @@ pub fn compute(case: &str, problem: &Problem<2>) -> Result<Certified, CaseError>
             hash,
         },
         receivers: columns(&record.receivers, |name| {
-            name.ends_with("_ux") || name.ends_with("_uy")
+            DISPLACEMENTS.iter().any(|end| name.ends_with(end))
         }),
         energy: columns(&record.energy, |name| ["kinetic", "strain"].contains(&name)),
         snapshots,
@@ -54,23 +57,26 @@ pub fn compute(case: &str, problem: &Problem<2>) -> Result<Certified, CaseError>
 ///
 /// # Errors
 /// As [`compute`].
-pub fn measure_floor(reference: &mut Certified, problem: &Problem<2>) -> Result<(), CaseError> {
-    let mut finer = with_buffers(problem, LARGER);
-    finer.rel_tol *= FINER;
+pub fn measure_floor(reference: &mut Certified, problem: &Posed) -> Result<(), CaseError> {
+    let mut finer = buffered(problem, LARGER);
+    either!(&mut finer, problem => problem.rel_tol *= FINER);
     let control = run(&finer)?;
     let mut floor = BTreeMap::new();
-    for receiver in &problem.probes.receivers {
-        let squares = |series: &SeriesTable| -> Vec<[f64; 2]> {
-            let of = |axis: &str| series.column(&format!("{}_{axis}", receiver.name));
-            match (of("ux"), of("uy")) {
-                (Some(x), Some(y)) => x.iter().zip(y).map(|(x, y)| [*x, *y]).collect(),
-                _ => Vec::new(),
+    for (receiver, _) in problem.receivers() {
+        let samples = reference.receivers.times.len();
+        let mut squares = vec![0.0; samples.min(control.receivers.times.len())];
+        for end in DISPLACEMENTS {
+            let name = format!("{receiver}{end}");
+            let columns = [&reference.receivers, &control.receivers].map(|t| t.column(&name));
+            let [Some(mine), Some(other)] = columns else {
+                continue;
+            };
+            for (sum, (a, b)) in squares.iter_mut().zip(mine.iter().zip(other)) {
+                *sum += (a - b).powi(2);
             }
-        };
-        let mine = squares(&reference.receivers);
-        let change = mine.iter().zip(squares(&control.receivers));
-        let change = change.map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
-        floor.insert(receiver.name.clone(), change.fold(0.0, f64::max));
+        }
+        let change = squares.into_iter().fold(0.0, f64::max).sqrt();
+        floor.insert(receiver, change);
     }
     reference.about.floor_m = Some(floor);
     Ok(())
@@ -101,13 +107,13 @@ fn peak(series: &SeriesTable, receiver: &str) -> f64 {
         .fold(0.0, |m, v| m.max(v.abs()))
 }
 
-fn run(problem: &Problem<2>) -> Result<Record, CaseError> {
-    let bill = bill(problem)?;
+fn run(problem: &Posed) -> Result<Record, CaseError> {
+    let bill = problem.bill()?;
     let progress = Progress::new(bill.points as u64 * bill.steps as u64);
     let monitor = progress.monitor(bill.points);
     let (wall, cpu) = (Instant::now(), ThreadTime::now());
     let mut outcome = None;
-    let memory = allocation_counter::measure(|| outcome = Some(solve(problem, &monitor)));
+    let memory = allocation_counter::measure(|| outcome = Some(problem.solve(&monitor)));
     progress.finish();
     let outcome = outcome.expect("measure calls its closure once")?;
     if let Some(error) = outcome.error {
@@ -131,9 +137,8 @@ fn columns(table: &SeriesTable, keep: impl Fn(&str) -> bool) -> SeriesTable {
     }
 }
 
-fn buffers(problem: &Problem<2>) -> BTreeMap<String, f64> {
-    [Side::LEFT, Side::RIGHT, Side::BOTTOM, Side::TOP]
-        .into_iter()
+fn buffers<const D: usize>(problem: &Problem<D>) -> BTreeMap<String, f64> {
+    sides::<D>()
         .filter_map(|side| {
             let method = &problem.sides[side.axis][usize::from(side.upper)];
             let thickness = method.given_number("thickness_m");

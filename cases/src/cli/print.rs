@@ -1,11 +1,12 @@
 //! What is printed.
 
 use super::args::Format;
-use crate::certified::causality::with_buffers;
+use crate::certified::causality::buffered;
 use crate::certified::library::Library;
 use crate::commands::{Atlas, Finished, Recomputed};
 use crate::error::CaseError;
 use crate::field::short;
+use crate::posed::Posed;
 use crate::prepare::Prepared;
 use crate::scene::{Overlay, SceneInfo};
 use crate::store;
@@ -18,7 +19,6 @@ use anechoic_reports::table::{
     bill_table, measurement_table, ranking_table, upshot_table, verdict_table,
 };
 use anechoic_solver::boundary::METHODS;
-use anechoic_solver::problem::Problem;
 use anechoic_solver::record::Status;
 use anechoic_solver::{Bill, Item};
 use serde_json::{Value, json};
@@ -150,7 +150,9 @@ pub fn show(prepared: &Prepared, format: Format) -> Result<String, CaseError> {
             );
         }
     }
-    text.push_str("\nEchoes are looked for\n");
+    if !windows.is_empty() {
+        text.push_str("\nEchoes are looked for\n");
+    }
     for window in windows {
         let end = window
             .to_s
@@ -209,15 +211,14 @@ fn estimate(bill: &Bill) -> String {
 }
 
 /// Whether a certified reference is at hand, and what it takes otherwise.
-fn reference(case: &str, problem: &Problem<2>) -> Result<String, CaseError> {
-    let extended = with_buffers(problem, 1.0);
+fn reference(case: &str, problem: &Posed) -> Result<String, CaseError> {
     Ok(match Library::shipped().find(case, problem)? {
         Some(found) if found.about.serves(problem.last_time()).is_ok() => format!(
             "certified, stored ({}), serves until {:.2} s",
             found.about.hash, found.about.serves_until_s
         ),
         _ => {
-            let bill = anechoic_solver::bill(&extended)?;
+            let bill = buffered(problem, 1.0).bill()?;
             format!(
                 "certified; does not come with the program: the first comparison computes it, {} unknowns, {}",
                 format::count(bill.unknowns),

@@ -33,7 +33,9 @@ impl<'a> Study<'a> {
             Command::Compare(_) => commands::plan_compare(&options),
             Command::Ablation(_) => commands::plan_ablation(&options),
             Command::Converge(converge) => {
-                commands::plan_converge(&options, &Over::parse(&converge.over)?)
+                let over = converge.over.iter().map(|text| Over::parse(text));
+                let over: Vec<Over> = over.collect::<Result<_, _>>()?;
+                commands::plan_converge(&options, &over, converge.budget)
             }
             Command::Sweep(sweep) => commands::plan_sweep(&options, &sweep.over),
             Command::Tradeoff(_) => commands::plan_tradeoff(&options),
@@ -62,9 +64,7 @@ pub fn solve(command: &Command) -> Result<u8, CaseError> {
         options,
         mut plan,
     } = Study::of(command)?;
-    for (method, why) in &plan.left_out {
-        eprintln!("{method} is left out: {why}");
-    }
+    eprint!("{}", left_out(&plan.left_out, work.dry_run));
     if work.dry_run {
         if let Some(shard) = work.shard {
             plan.keep(shard);
@@ -79,6 +79,27 @@ pub fn solve(command: &Command) -> Result<u8, CaseError> {
     let share = share(plan, &options, shard)?;
     print::out(&print_plan::share(&share, work.format)?);
     Ok(share.exit_code())
+}
+
+/// Runs that are left out are named one by one up to so many.
+const NAMED: usize = 4;
+
+/// What is left out and why: a line each, or, unless all are asked for, the first few of many.
+fn left_out(runs: &[(String, String)], all: bool) -> String {
+    let named = if all || runs.len() <= NAMED {
+        runs.len()
+    } else {
+        NAMED - 1
+    };
+    let lines = runs[..named].iter();
+    let mut text: String = lines
+        .map(|(run, why)| format!("{run} is left out: {why}\n"))
+        .collect();
+    if named < runs.len() {
+        let more = runs.len() - named;
+        text += &format!("{more} more runs are left out; --dry-run names them all\n");
+    }
+    text
 }
 
 /// Writes a study down for engines that run jobs.
@@ -120,4 +141,23 @@ pub fn write_down(arguments: &PlanArgs) -> Result<u8, CaseError> {
     let written = workflow(plan, &options, shards, &arguments.into, (&program, &words))?;
     print::out(&print_plan::written(&written));
     Ok(exit::PASS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_runs_that_are_left_out_are_counted() {
+        let runs = |n: usize| -> Vec<(String, String)> {
+            (0..n)
+                .map(|i| (format!("run {i}"), "no".to_owned()))
+                .collect()
+        };
+        assert_eq!(left_out(&runs(0), false), "");
+        assert_eq!(left_out(&runs(4), false).lines().count(), 4);
+        let many = left_out(&runs(9), false);
+        assert!(many.contains("run 2") && !many.contains("run 3") && many.contains("6 more"));
+        assert_eq!(left_out(&runs(9), true).lines().count(), 9);
+    }
 }

@@ -60,7 +60,7 @@ fn read(path: &Path) -> Result<(Holds, Vec<Filed>), CaseError> {
                 path.display()
             )));
         }
-        return Ok((Holds::Study, rows(path, "")?));
+        return Ok((Holds::Study, rows_of_file(path)?));
     }
     if let Some(summary) = file(SUMMARY) {
         return Ok((Holds::Study, rows(&summary, "")?));
@@ -89,6 +89,26 @@ fn read(path: &Path) -> Result<(Holds, Vec<Filed>), CaseError> {
         all.extend(rows(&study.join(SUMMARY), &name)?);
     }
     Ok((Holds::Results, all))
+}
+
+/// The rows of a file that was named itself: one that holds other JSON is the wrong file.
+fn rows_of_file(path: &Path) -> Result<Vec<Filed>, CaseError> {
+    let text = std::fs::read_to_string(path).map_err(|source| CaseError::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    let is_json = serde_json::from_str::<serde_json::Value>(&text);
+    let has_rows = |value: &serde_json::Value| {
+        let list = value.as_array();
+        list.is_some_and(|list| list.iter().all(|row| row.get("metric").is_some()))
+    };
+    match is_json {
+        Ok(value) if !has_rows(&value) => Err(CaseError::Usage(format!(
+            "{}: holds no rows; {SUMMARY} of a study or {METRICS} of a run does",
+            path.display()
+        ))),
+        _ => rows(path, ""),
+    }
 }
 
 fn rows(file: &Path, study: &str) -> Result<Vec<Filed>, CaseError> {

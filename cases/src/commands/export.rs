@@ -47,7 +47,12 @@ pub fn export(scene: &Prepared, folder: &Path, results: &Path) -> Result<Exporte
             folder.display()
         ))
     })?;
-    let problem = scene.scene.problem();
+    let Some(problem) = scene.scene.posed().plane() else {
+        return Err(CaseError::Usage(format!(
+            "--export: {} is three-dimensional, and meshes are written for plane strain alone",
+            scene.info.name
+        )));
+    };
     let steps = scene.bill.steps;
     let times: Vec<f64> = (0..=steps).map(|step| step as f64 * problem.dt).collect();
     let reference = without_echo(scene, &problem, &times, results)?;
@@ -179,7 +184,7 @@ fn load(problem: &Problem<2>, times: &[f64]) -> SeriesTable {
 /// The body's cells, row by row from the lower left one.
 fn mesh(problem: &Problem<2>) -> String {
     let target = &problem.target;
-    let h = fitted_cell(target, problem.cell_size);
+    let h = fitted_cell(target, problem.edges());
     let count =
         |axis: usize| ((target.upper[axis] - target.lower[axis]) / h[axis]).round() as usize;
     let mut text = String::from("cell,x_min_m,x_max_m,y_min_m,y_max_m\n");

@@ -19,6 +19,7 @@ use crate::over::Over;
 use crate::prepare::{Prepared, Request, Target};
 use crate::resume::{Reuse, Todo, folder, tasks};
 use crate::runner::{Task, run_all};
+use crate::spectrum;
 use crate::store::Store;
 use crate::study::stored::{Found, Study, find_studies};
 use crate::study::{ANIMATION, Kind, Published, publish};
@@ -204,17 +205,17 @@ pub fn ablation(options: &Options) -> Result<Finished, CaseError> {
 ///
 /// # Errors
 /// Whatever is wrong with the request.
-pub fn plan_converge(options: &Options, over: &Over) -> Result<Plan, CaseError> {
-    Plan::converge(options, over)
+pub fn plan_converge(options: &Options, over: &[Over], budget: bool) -> Result<Plan, CaseError> {
+    Plan::converge(options, over, budget)
 }
 
-/// Solves one scene with one method on all levels of a refinement, and judges the orders with which
-/// its errors fall.
+/// Solves one scene with one method on all levels of refinements, and judges the orders with which
+/// its errors fall; with a `budget`, once more for each cause of its errors.
 ///
 /// # Errors
 /// As [`run`].
-pub fn converge(options: &Options, over: &Over) -> Result<Finished, CaseError> {
-    execute(Plan::converge(options, over)?, options)
+pub fn converge(options: &Options, over: &[Over], budget: bool) -> Result<Finished, CaseError> {
+    execute(Plan::converge(options, over, budget)?, options)
 }
 
 /// What `sweep` would do.
@@ -399,12 +400,21 @@ fn execute_tasks(
     study.announce()?;
     // One of earlier runs would not show these; that there is none is no failure.
     let _ = std::fs::remove_file(store.folder().join(ANIMATION));
+    // whatever was timed before is no time of what is solved again
+    let again = tasks.iter().filter(|task| matches!(task, Task::Solve(_)));
+    let again: Vec<String> = again
+        .map(|task| task.folder().display().to_string())
+        .collect();
+    timing::forget_some(store.folder(), &again)?;
     let runs = run_all(tasks, options.sampling, options.jobs, store)?;
     if options.repeats > 0 {
         if options.reuse == Reuse::Nothing {
             timing::forget(store.folder())?;
         }
         timing::measure(&runs, store.folder(), options.repeats)?;
+    }
+    if let Kind::Stability(grid) = &study.kind {
+        spectrum::measure(&runs, grid, store.folder(), options.jobs)?;
     }
     Finished::new(publish(Study { runs, ..study })?, filter)
 }

@@ -176,42 +176,13 @@ impl Plan {
         })
     }
 
-    /// One scene on all levels of a refinement, coarse to fine.
-    pub(super) fn converge(options: &Options, over: &Over) -> Result<Self, CaseError> {
-        let method = match options.methods.as_slice() {
-            [] => None,
-            [one] => Some(one.as_str()),
-            _ => {
-                return Err(CaseError::Usage(
-                    "converge takes one --method; refine others one by one".into(),
-                ));
-            }
-        };
-        let level = |assignment: String| {
-            let mut request = options.request.clone();
-            request.sets.push(assignment);
-            let scene = Target::find(&request)?.prepare(method)?;
-            refuse_unused(&scene.unused)?;
-            Ok(scene)
-        };
-        let scenes: Vec<Prepared> = over
-            .assignments()
-            .into_iter()
-            .map(level)
-            .collect::<Result<_, CaseError>>()?;
-        levels::check(&scenes, over)?;
-        let filter = options.filter.clone().map(Filter);
-        if let (Some(filter), Some(finest)) = (&filter, scenes.last()) {
-            filter.methods(&[&finest.method], &levels::places(&places(finest), over))?;
-        }
-        Ok(Plan {
-            kind: Kind::Convergence {
-                over: over.field.clone(),
-            },
-            scenes,
-            filter,
-            left_out: Vec::new(),
-        })
+    /// One scene on all levels of refinements, coarse to fine, and the runs of its budget.
+    pub(super) fn converge(
+        options: &Options,
+        over: &[Over],
+        budget: bool,
+    ) -> Result<Self, CaseError> {
+        levels::converge(options, over, budget)
     }
 
     /// One scene at the points of a sweep, with several methods.

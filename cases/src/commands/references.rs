@@ -3,9 +3,9 @@
 use crate::certified::key;
 use crate::certified::library::Library;
 use crate::error::CaseError;
+use crate::posed::Posed;
 use crate::prepare::Prepared;
 use crate::runner::pool;
-use anechoic_solver::problem::Problem;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub(super) struct Wanted {
     /// The case that names it.
     pub case: &'static str,
     /// The problem of the scene that ends last.
-    pub problem: Problem<2>,
+    pub problem: Posed,
 }
 
 impl Wanted {
@@ -34,7 +34,7 @@ pub(super) fn wanted<'a>(scenes: impl IntoIterator<Item = &'a Prepared>) -> Vec<
         let Some(problem) = scene.scene.extended() else {
             continue;
         };
-        let hash = key::hash(&key::table(&problem));
+        let hash = key::hash_of(&problem);
         let known = wanted.get(&hash);
         // Scenes that differ in their end alone share a reference, which has to serve them all.
         if known.is_none_or(|known| known.problem.last_time() < problem.last_time()) {

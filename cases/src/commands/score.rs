@@ -136,7 +136,12 @@ fn earlier(study: &Path, run: &Run) -> Vec<Run> {
 
 /// The record of the series at the scene's times.
 fn read(path: &Path, scene: &Prepared, model: Option<&str>) -> Result<(Record, Scored), CaseError> {
-    let problem = scene.scene.problem();
+    let Some(problem) = scene.scene.posed().plane() else {
+        return Err(CaseError::Usage(format!(
+            "score: {} is three-dimensional, and series are read of plane scenes alone",
+            scene.info.name
+        )));
+    };
     let receivers = problem.probes.receivers.iter();
     let receivers: Vec<String> = receivers.map(|r| r.name.clone()).collect();
     let series = Foreign::read(path, &receivers)?;

@@ -3,7 +3,7 @@
 
 use super::references::wanted;
 use super::{Options, Plan};
-use crate::certified::causality::with_buffers;
+use crate::certified::causality::buffered;
 use crate::certified::library::Library;
 use crate::error::CaseError;
 use crate::prepare::Prepared;
@@ -187,8 +187,7 @@ impl Costs {
         for one in wanted(&plan.scenes) {
             let mut own = 0.0;
             if one.is_missing(&library)? {
-                let extended = with_buffers(&one.problem, 1.0);
-                let bill = anechoic_solver::bill(&extended)?;
+                let bill = buffered(&one.problem, 1.0).bill()?;
                 own = bill.seconds();
                 costs.peak = costs.peak.max(peak_bytes(&bill));
             }

@@ -6,8 +6,8 @@ use crate::field::{Kind, Range};
 use toml::{Table, Value};
 use toml_edit::{Item, TableLike};
 
-/// Keys of a receiver beside its name.
-const PLACE: [&str; 2] = ["x_m", "y_m"];
+/// Keys of a receiver beside its name; the last has a meaning in three dimensions alone.
+const PLACE: [&str; 3] = ["x_m", "y_m", "z_m"];
 
 impl Draft {
     /// Replaces the list.

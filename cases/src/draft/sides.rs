@@ -8,11 +8,13 @@ use toml::{Table, Value};
 use toml_edit::Item;
 
 /// The sides, as fields.
-pub(super) const SIDES: [&str; 4] = [
+pub(super) const SIDES: [&str; 6] = [
     "boundary.left",
     "boundary.right",
     "boundary.bottom",
     "boundary.top",
+    "boundary.back",
+    "boundary.front",
 ];
 
 impl Draft {

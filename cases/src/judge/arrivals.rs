@@ -18,10 +18,10 @@ const REACH: f64 = 0.2;
 
 /// When the prescribed motion of a receiver on a driven side ends (s); `None` elsewhere. Until then
 /// the receiver shows what was put in, which no solver can get wrong.
-pub fn prescribed_until(problem: &Problem<2>, receiver: &str) -> Option<f64> {
+pub fn prescribed_until<const D: usize>(problem: &Problem<D>, receiver: &str) -> Option<f64> {
     let mut places = problem.probes.receivers.iter();
     let place = places.find(|r| r.name == receiver)?.place;
-    let cell = fitted_cell(&problem.target, problem.cell_size);
+    let cell = fitted_cell(&problem.target, problem.edges());
     let until = problem.drives.iter().filter_map(|drive| {
         let Drive::SideVelocity { side, pulse } = drive else {
             return None;

@@ -67,7 +67,7 @@ pub(super) fn measure(
         }
     };
     let subject = Subject {
-        problem: &scene.problem(),
+        problem: &scene.posed(),
         method,
         reference: &reference,
         truth: super::traces_of(&reference, &run.record),
@@ -101,17 +101,14 @@ fn reference(run: &Run, extended: Option<&Run>) -> Result<Reference, String> {
     }
     let quantity = Quantity::Velocity;
     let series = traces(&extended.record, quantity).map_err(|error| error.to_string())?;
-    let receivers = series.receivers().iter().map(|trace| {
-        let components = <[Vec<f64>; 2]>::try_from(trace.components.clone());
-        let components = components.map_err(|_| "the record is not two-dimensional".to_owned());
-        Ok((trace.name.clone(), components?))
-    });
+    let receivers = series.receivers().iter();
+    let receivers = receivers.map(|trace| (trace.name.clone(), trace.components.clone()));
     Ok(Reference {
         name: NAME,
         role: Role::NoEcho,
         evidence: Evidence::Certified,
         quantity,
-        receivers: receivers.collect::<Result<_, String>>()?,
+        receivers: receivers.collect(),
         pulses: false,
     })
 }

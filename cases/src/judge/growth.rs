@@ -1,28 +1,27 @@
 //! Runs whose energy grows after the load: said aloud, and no proof of little echo.
 
 use super::foreign::OF_ECHO;
+use crate::posed::{Posed, either};
 use crate::runner::Run;
 use anechoic_reports::norms::Unloaded;
 use anechoic_reports::row::{Row, Verdict};
 use anechoic_solver::boundary::pml_stretched;
-use anechoic_solver::problem::{Drive, Problem};
+use anechoic_solver::problem::Elastic;
 
 /// What a run's energy does after the load; `None` where that cannot be said.
-pub(super) fn unloaded(run: &Run, problem: &Problem<2>) -> Option<Unloaded> {
-    if !problem.flow.is_passive() {
+pub(super) fn unloaded(run: &Run, problem: &Posed) -> Option<Unloaded> {
+    if !either!(problem, problem => problem.flow.is_passive()) {
         return None;
     }
     let energy = &run.record.energy;
-    let ends = problem.drives.iter().map(|drive| match drive {
-        Drive::SideVelocity { pulse, .. } | Drive::PointForce { pulse, .. } => pulse.end(),
-    });
+    let ends = problem.pulses().into_iter().map(|pulse| pulse.end());
     let load_end = ends.fold(0.0, f64::max);
     Unloaded::of(&energy.times, energy.column("total")?, load_end).ok()
 }
 
 /// Fails the claims of little echo that a run meets though its energy runs away, and says that it grows.
 pub(super) fn unstable(run: &Run, rows: &mut [Row]) -> Option<String> {
-    let problem = run.prepared.scene.problem();
+    let problem = run.prepared.scene.posed();
     let unloaded = unloaded(run, &problem)?;
     if !unloaded.grows() && !unloaded.runs_away() {
         return None;
@@ -35,7 +34,7 @@ pub(super) fn unstable(run: &Run, rows: &mut [Row]) -> Option<String> {
         "{}: its energy grows{by}, to {:.2e} times what the load brought: unstable here",
         run.manifest.method, unloaded.over_loaded
     );
-    if let Some(reason) = ill_posed(&problem) {
+    if let Some(reason) = ill_posed(run, problem.material()) {
         note = format!("{note}; {reason}");
     }
     if unloaded.runs_away() {
@@ -52,11 +51,12 @@ pub(super) fn unstable(run: &Run, rows: &mut [Row]) -> Option<String> {
 }
 
 /// Why the published layer grows in this material, if it does.
-fn ill_posed(problem: &Problem<2>) -> Option<String> {
-    let mut sides = problem.sides.iter().flatten();
-    let ratio = problem.material.p_speed() / problem.material.s_speed();
+fn ill_posed(run: &Run, material: &Elastic) -> Option<String> {
+    let sides = run.prepared.scene.boundary().named();
+    let ratio = material.p_speed() / material.s_speed();
     let limit = pml_stretched::LARGEST_SPEED_RATIO;
-    let used = sides.any(|side| side.method == pml_stretched::METHOD.name);
+    let mut sides = sides.into_iter();
+    let used = sides.any(|(_, side)| side.method == pml_stretched::METHOD.name);
     (used && ratio > limit).then(|| {
         format!(
             "the published layer's equations are ill-posed where c_p/c_s exceeds 1 + sqrt 2 (nu = 0.396), and here it is {ratio:.2}"

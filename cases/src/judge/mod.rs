@@ -1,6 +1,7 @@
 //! From runs to rows: every metric that applies, against every reference that the scene gives.
 
 mod arrivals;
+mod budget;
 mod certified;
 mod foreign;
 mod goodness;
@@ -16,12 +17,13 @@ mod stability;
 mod subject;
 mod trades;
 
+pub use budget::{BUDGET, CAUSES, ERRORS, budget_label};
 pub use certified::CERTIFIER;
 pub use levels::judge_levels;
 pub use points::judge_points;
 pub use rows::rows_unread;
 pub use series::{traces, traces_of};
-pub use stability::judge_stability;
+pub use stability::{RATIO_AXIS, STEP_AXIS, judge_stability};
 pub use trades::judge_trades;
 
 use crate::certified::Certified;
@@ -162,7 +164,7 @@ fn measure(
     if run.manifest.scored.is_none() {
         energies(run, &windows, numbers);
     }
-    let problem = scene.problem();
+    let problem = scene.posed();
     let mut truths = references.of(run)?;
     if run.manifest.judged_as().is_none() {
         // Of another program nobody said what its boundary is a model of.
@@ -249,9 +251,13 @@ fn reference_floor(
     let scores = traces(&standard.record, Quantity::Displacement).and_then(|standard| {
         // A run that departs from silence by the floor, receiver by receiver.
         let times = run.record.receivers.times.clone();
-        let constant = |trace: &Trace, value: f64| Trace {
-            name: trace.name.clone(),
-            components: vec![vec![value; times.len()], vec![0.0; times.len()]],
+        let constant = |trace: &Trace, value: f64| {
+            let mut components = vec![vec![0.0; times.len()]; trace.components.len()];
+            components[0].fill(value);
+            Trace {
+                name: trace.name.clone(),
+                components,
+            }
         };
         let of = |value: &dyn Fn(&str) -> f64| {
             let made = standard

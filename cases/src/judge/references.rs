@@ -1,5 +1,6 @@
 //! What is true of the runs of a study: closed forms of their scenes, and certified references.
 
+use super::series::axes_of;
 use crate::certified::{Certified, key, library::Library};
 use crate::runner::Run;
 use crate::scene::{Quantity, Reference, Role};
@@ -31,12 +32,12 @@ impl References {
                 Ok(Some(found)) => Ok(found),
                 Ok(None) => Err(format!(
                     "there is no certified reference {} for this scene; `anechoic reference {}` with the same options computes it",
-                    key::hash(&key::table(&problem)),
+                    key::hash_of(&problem),
                     run.prepared.info.name
                 )),
                 Err(error) => Err(error.to_string()),
             };
-            let hash = key::hash(&key::table(&problem));
+            let hash = key::hash_of(&problem);
             references.certified.entry(hash).or_insert_with(find);
         }
         references
@@ -86,7 +87,7 @@ pub fn standard_of<'a>(run: &Run, runs: &[&'a Run]) -> Option<&'a Run> {
 /// The hash of a run's certified reference, if it needs one.
 fn hash(run: &Run) -> Option<String> {
     let problem = run.prepared.scene.extended()?;
-    Some(key::hash(&key::table(&problem)))
+    Some(key::hash_of(&problem))
 }
 
 /// The certified series up to the last of some times (s).
@@ -119,7 +120,14 @@ pub fn at_times(certified: &Certified, times: &[f64]) -> Result<Reference, Strin
         evidence: Evidence::Certified,
         quantity: Quantity::Displacement,
         receivers: receivers
-            .map(|name| Ok((name.to_owned(), [of(name, "ux")?, of(name, "uy")?])))
+            .map(|name| {
+                let axes = axes_of(series, 'u');
+                let components = axes
+                    .iter()
+                    .map(|axis| of(name, axis))
+                    .collect::<Result<_, _>>();
+                Ok((name.to_owned(), components?))
+            })
             .collect::<Result<_, String>>()?,
         pulses: false,
     })

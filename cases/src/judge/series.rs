@@ -2,13 +2,22 @@
 
 use crate::scene::{Quantity, Reference, Window};
 use anechoic_reports::norms::{NormError, Trace, Traces};
-use anechoic_solver::record::Record;
+use anechoic_solver::record::{Record, SeriesTable};
 
 /// The recorded motion.
 pub fn traces(record: &Record, quantity: Quantity) -> Result<Traces, NormError> {
-    let letter = quantity.letter();
-    let suffixes = [format!("{letter}x"), format!("{letter}y")];
-    Traces::from_table(&record.receivers, &[&suffixes[0], &suffixes[1]])
+    let suffixes = axes_of(&record.receivers, quantity.letter());
+    let suffixes: Vec<&str> = suffixes.iter().map(String::as_str).collect();
+    Traces::from_table(&record.receivers, &suffixes)
+}
+
+/// How the columns of the components of a quantity end: those of x and y, and that of z where a table has
+/// it.
+pub(super) fn axes_of(table: &SeriesTable, letter: char) -> Vec<String> {
+    let has = |axis: &str| table.columns.iter().any(|c| c.name.ends_with(axis));
+    let all = ["x", "y", "z"].map(|axis| format!("{letter}{axis}"));
+    let spatial = has(&format!("_{}", all[2]));
+    all.into_iter().take(if spatial { 3 } else { 2 }).collect()
 }
 
 /// The true motion at the record's times.
@@ -18,7 +27,7 @@ pub fn traces_of(reference: &Reference, record: &Record) -> Result<Traces, NormE
         .iter()
         .map(|(name, components)| Trace {
             name: name.clone(),
-            components: components.to_vec(),
+            components: components.clone(),
         })
         .collect();
     Traces::new(record.receivers.times.clone(), receivers)

@@ -2,6 +2,7 @@
 //! such a thing.
 
 use super::Subject;
+use crate::posed::either;
 use crate::scene::Quantity;
 use anechoic_reports::judge::Measurement;
 use anechoic_reports::norms::{drift_error, settlement_error, with_groups};
@@ -11,8 +12,9 @@ use anechoic_solver::wavelet::Lasting;
 /// Settlement or drift, whichever there is.
 pub(super) fn measure(subject: &Subject<'_>, numbers: &mut Vec<Measurement>) {
     let left = |what: Lasting| {
-        let mut drives = subject.problem.drives.iter();
-        drives.any(|d| matches!(d, Drive::PointForce { pulse, .. } if pulse.lasting() == what))
+        either!(subject.problem, problem => problem.drives.iter().any(
+            |d| matches!(d, Drive::PointForce { pulse, .. } if pulse.lasting() == what)
+        ))
     };
     if subject.reference.quantity != Quantity::Displacement {
         return;

@@ -2,6 +2,7 @@
 
 use super::series::cut;
 use super::{REFERENCE, arrivals};
+use crate::posed::{Posed, either};
 use crate::scene::{Reference, Window};
 use anechoic_reference::claim::Evidence;
 use anechoic_reports::judge::{Measurement, measurements};
@@ -9,7 +10,6 @@ use anechoic_reports::norms::{
     NormError, Onset, Score, Traces, amplitude_ratio, echo_level_db, echo_ratio, peak_error,
     rel_l2, residual, with_groups, with_groups_db,
 };
-use anechoic_solver::problem::Problem;
 
 /// Each receiver's own start of its window.
 pub(super) fn onsets(windows: &[Window]) -> Onset {
@@ -20,7 +20,7 @@ pub(super) fn onsets(windows: &[Window]) -> Onset {
 /// A run, what is true of it, and the run that absorbs nothing.
 pub(super) struct Subject<'a> {
     pub(super) method: &'a str,
-    pub(super) problem: &'a Problem<2>,
+    pub(super) problem: &'a Posed,
     pub(super) reference: &'a Reference,
     pub(super) truth: Result<Traces, NormError>,
     pub(super) run: Result<Traces, NormError>,
@@ -60,7 +60,9 @@ impl Subject<'_> {
                 self.against(),
                 run,
                 truth,
-                &|receiver| arrivals::prescribed_until(self.problem, receiver),
+                &|receiver| {
+                    either!(self.problem, problem => arrivals::prescribed_until(problem, receiver))
+                },
             ));
         }
     }

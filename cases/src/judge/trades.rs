@@ -1,6 +1,7 @@
 //! Accuracy against cost: what a sweep of ladders says of its methods.
 
 use super::references::References;
+use super::series::axes_of;
 use crate::awake::awake_share;
 use crate::error::CaseError;
 use crate::over::level_in;
@@ -8,10 +9,10 @@ use crate::runner::Run;
 use crate::sweep::Grid;
 use crate::timing::{self, Timings};
 use anechoic_reports::judge::judge;
+use anechoic_reports::norms::Traces;
 use anechoic_reports::row::Row;
 use anechoic_reports::sweep::Sweep;
 use anechoic_reports::tradeoff::{Known, Tradeoff};
-use anechoic_solver::problem::Drive;
 use anechoic_solver::record::Status;
 
 /// The study with its rows, which carry the claims of the scene.
@@ -47,7 +48,7 @@ pub fn judge_trades(
     let mut tradeoff = Tradeoff::new(sweep, &known, floor, wavelengths(first));
     tradeoff.plain = plain;
     if let Some(at) = tradeoff.plain {
-        tradeoff.awake_share = Some(awake_share(&at_end[at].0.prepared.scene.problem())?);
+        tradeoff.awake_share = Some(awake_share(&at_end[at].0.prepared.scene.posed())?);
     }
     let claims = first.prepared.scene.trades();
     let (case, profile) = (&first.manifest.case, &first.manifest.profile);
@@ -78,12 +79,12 @@ fn floor(run: &Run, references: &References) -> Option<f64> {
     let floors = certified.about.floor_m.as_ref()?;
     let mut ratios = Vec::new();
     for (receiver, floor) in floors {
-        let of = |axis: &str| certified.receivers.column(&format!("{receiver}_{axis}"));
-        let (x, y) = of("ux").zip(of("uy"))?;
-        let peak = x
-            .iter()
-            .zip(y)
-            .fold(0.0, |m: f64, (x, y)| m.max(x.hypot(*y)));
+        let axes = axes_of(&certified.receivers, 'u');
+        let suffixes: Vec<&str> = axes.iter().map(String::as_str).collect();
+        let traces = Traces::from_table(&certified.receivers, &suffixes).ok()?;
+        let mut traces = traces.receivers().iter();
+        let motion = traces.find(|trace| trace.name == *receiver)?.magnitude();
+        let peak = motion.into_iter().fold(0.0, f64::max);
         ratios.push(floor / peak);
     }
     let count = ratios.len() as f64;
@@ -92,10 +93,11 @@ fn floor(run: &Run, references: &References) -> Option<f64> {
 
 /// Lengths (m) of compressional and shear waves at the frequency of the first source.
 fn wavelengths(run: &Run) -> [f64; 2] {
-    let problem = run.prepared.scene.problem();
-    let frequency = problem.drives.first().map_or(1.0, |drive| match drive {
-        Drive::SideVelocity { pulse, .. } | Drive::PointForce { pulse, .. } => pulse.frequency,
-    });
-    let material = &problem.material;
+    let problem = run.prepared.scene.posed();
+    let frequency = problem
+        .pulses()
+        .first()
+        .map_or(1.0, |pulse| pulse.frequency);
+    let material = problem.material();
     [material.p_speed(), material.s_speed()].map(|speed| speed / frequency)
 }

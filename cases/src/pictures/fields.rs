@@ -3,6 +3,7 @@
 use super::{NO_ECHO, Picture, PictureError, receivers};
 use crate::checks::inner_thickness;
 use crate::judge::references::References;
+use crate::posed::either;
 use crate::runner::Run;
 use anechoic_reports::plot::{Corners, Field, Guide, PlotError, SnapshotPlot, SpaceTimePlot};
 use anechoic_reports::ranking::Ranking;
@@ -30,8 +31,8 @@ pub(super) fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError>
     let quantity = format!("velocity {}", field.name.trim_start_matches('v'));
     let mut guides: Vec<Guide> = receivers(runs[0])
         .into_iter()
-        .map(|(label, [_, y])| Guide {
-            position: y,
+        .map(|(label, place)| Guide {
+            position: place[1],
             label,
             method: None,
         })
@@ -40,7 +41,8 @@ pub(super) fn space_time(runs: &[&Run]) -> Result<Option<Picture>, PictureError>
     guides.extend(runs.iter().filter_map(|run| {
         let thickness = inner_thickness(&run.prepared.scene.boundary().bottom);
         (thickness > 0.0).then(|| Guide {
-            position: run.prepared.scene.problem().target.lower[1] + thickness,
+            position: either!(run.prepared.scene.posed(), problem => problem.target.lower[1])
+                + thickness,
             label: "layer".into(),
             method: Some(run.manifest.method.clone()),
         })
@@ -67,6 +69,9 @@ pub(super) fn snapshots(
     ranking: &Ranking,
     references: &References,
 ) -> Result<Option<Picture>, PictureError> {
+    if let Some(picture) = flowing(runs)? {
+        return Ok(Some(picture));
+    }
     let named = |name: &str| {
         let mut runs = runs.iter().filter(|run| !run.record.snapshots.is_empty());
         runs.find(|run| run.manifest.method == name)
@@ -120,21 +125,84 @@ pub(super) fn snapshots(
     }))
 }
 
+/// Methods beside which the standard run's velocities are shown, those that there are.
+const BESIDE: [&str; 3] = ["dashpot", "pml", "hybrid"];
+
+/// Velocities of flowing material at the snapshots' times: standard run and others; `None` where nothing
+/// flows.
+fn flowing(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
+    let flows = |run: &&&Run| {
+        let mut all = run.record.snapshots.iter().flat_map(|s| &s.columns);
+        all.any(|column| column.name == "vx")
+    };
+    let Some(first) = runs.iter().find(flows) else {
+        return Ok(None);
+    };
+    let shown = |run: &&&Run| {
+        let name = run.manifest.method.as_str();
+        name == run.prepared.info.standard || BESIDE.contains(&name)
+    };
+    let mut columns: Vec<&&Run> = runs.iter().filter(flows).filter(shown).collect();
+    if columns.is_empty() {
+        columns.push(first);
+    }
+    columns.truncate(3);
+    let velocity = |snapshot: &Snapshot| Field::magnitude(snapshot, &["vx", "vy"]);
+    let rows = first.record.snapshots.iter().filter_map(|snapshot| {
+        let fields: Option<Vec<_>> = columns
+            .iter()
+            .map(|run| at(&run.record.snapshots, snapshot.time).map(velocity))
+            .collect();
+        let fields: Result<Vec<Field>, PlotError> = fields?.into_iter().collect();
+        Some(fields.map(|f| (snapshot.time, f)))
+    });
+    let rows: Vec<(f64, Vec<Field>)> = rows.collect::<Result<_, _>>()?;
+    let Some([low, high]) = rows.first().and_then(|(_, fields)| ends(fields.first()?)) else {
+        return Ok(None);
+    };
+    let drawing = SnapshotPlot {
+        quantity: "|v|".into(),
+        unit: "m/s".into(),
+        methods: columns.iter().map(|r| r.manifest.method.clone()).collect(),
+        rows,
+        extent: [low, high],
+        meshes: vec![[low, high]; columns.len()],
+    }
+    .draw()?;
+    Ok(Some(Picture {
+        name: "snapshots".into(),
+        title: "Velocity of the soil".into(),
+        caption: "One scale for all; where nothing moves or there is no soil the field is dark."
+            .into(),
+        drawing,
+        raster: true,
+    }))
+}
+
+/// Lower left and upper right corner of a field.
+fn ends(field: &Field) -> Option<Corners> {
+    let (x, y) = (&field.x, &field.y);
+    Some([[*x.first()?, *y.first()?], [*x.last()?, *y.last()?]])
+}
+
 /// The snapshot of a time.
 pub(super) fn at(snapshots: &[Snapshot], time: f64) -> Option<&Snapshot> {
     snapshots.iter().find(|s| (s.time - time).abs() < 1e-6)
 }
 
+/// The size of the displacement; of a body in space it is shown on the back side, a plane of symmetry, which
+/// nothing crosses.
 pub(super) fn magnitude(snapshot: &Snapshot) -> Result<Field, PlotError> {
     Field::magnitude(snapshot, &["ux", "uy"])
 }
 
-/// All material of a run (m).
+/// All material of a run (m), across and up.
 pub(super) fn mesh(run: &Run) -> Corners {
-    let problem = run.prepared.scene.problem();
     // What was run was set up before.
-    let all = material_box(&problem).unwrap_or(problem.target);
-    [all.lower, all.upper]
+    either!(run.prepared.scene.posed(), problem => {
+        let all = material_box(&problem).unwrap_or(problem.target);
+        [all.lower, all.upper].map(|corner| [corner[0], corner[1]])
+    })
 }
 
 /// A box grown by a share of its width, but not beyond its top, where nothing is.

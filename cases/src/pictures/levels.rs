@@ -1,12 +1,10 @@
 //! Pictures of a convergence study: one an error.
 
 use super::{Gallery, Picture, PictureError};
-use crate::over::CELLS;
-use anechoic_reports::convergence::{Convergence, Curve};
+use crate::over::{CELLS, POINTS, STEP};
+use anechoic_reports::convergence::{Convergence, Curve, Refinement};
+use anechoic_reports::plateau::EXPECTED;
 use anechoic_reports::plot::{ConvergencePlot, ConvergenceSeries};
-
-/// Order of the scheme in space and time, as the slope to compare with.
-const SECOND: f64 = 2.0;
 
 /// Metric, file, title.
 const PICTURES: [(&str, &str, &str); 2] = [
@@ -18,11 +16,17 @@ const PICTURES: [(&str, &str, &str); 2] = [
     ),
 ];
 
-/// The pictures of a convergence study.
-pub fn draw_convergence(convergence: &Convergence) -> Gallery {
+/// The pictures of convergence studies: of the first under plain names, of others with their field's.
+pub fn draw_convergence(refinement: &Refinement) -> Gallery {
     let mut gallery = Gallery::default();
-    for (metric, name, title) in PICTURES {
-        gallery.add(name, picture(convergence, metric, name, title));
+    for (i, study) in refinement.studies.iter().enumerate() {
+        for (metric, name, title) in PICTURES {
+            let name = match i {
+                0 => name.to_owned(),
+                _ => format!("{name}-{}", study.over.replace('.', "-")),
+            };
+            gallery.add(&name, picture(study, metric, &name, title));
+        }
     }
     gallery
 }
@@ -31,8 +35,8 @@ pub fn draw_convergence(convergence: &Convergence) -> Gallery {
 fn picture(
     convergence: &Convergence,
     metric: &str,
-    name: &'static str,
-    title: &'static str,
+    name: &str,
+    title: &str,
 ) -> Result<Option<Picture>, PictureError> {
     let sizes: Vec<f64> = convergence.levels.iter().map(|level| level.size).collect();
     let shown = convergence.curves.iter().filter(|c| c.metric == metric);
@@ -58,14 +62,16 @@ fn picture(
         series,
         refined: match convergence.over.as_str() {
             CELLS => "cell size h (m)".to_owned(),
+            STEP => "time step (s)".to_owned(),
+            POINTS => "distance of points (m)".to_owned(),
             field => field.to_owned(),
         },
-        slope: SECOND,
+        slope: EXPECTED,
     }
     .draw()?;
     Ok(Some(Picture {
         name: name.into(),
-        title: title.into(),
+        title: format!("{title} over {}", convergence.over),
         caption: format!(
             "`{metric}` of {} at the receivers, on logarithmic axes; the triangle has the slope of a scheme of second order.",
             convergence.method

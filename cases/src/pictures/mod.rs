@@ -10,14 +10,14 @@ mod trades;
 use crate::judge::references::References;
 use crate::judge::{traces, traces_of};
 use crate::runner::Run;
-use crate::scene::{Quantity, Reference, Role};
+use crate::scene::{Curve, OwnPicture, Quantity, Reference, Role};
 use crate::study::Kind;
 use anechoic_reports::norms::{
     NormError, ROUNDING_GROWTH, Trace, Traces, echo_series, energy_left, growth_rate_per_s,
     target_energy,
 };
 use anechoic_reports::plot::{
-    BarPlot, Bars, Drawing, EchoPlot, EnergyPlot, Line, PlotError, TracePanel, TracePlot,
+    BarPlot, Bars, Drawing, EchoPlot, EnergyPlot, Line, PlotError, TracePanel, TracePlot, WayPlot,
 };
 use anechoic_reports::ranking::Ranking;
 use anechoic_reports::study::Upshot;
@@ -82,7 +82,7 @@ pub fn missing(name: &str, reason: &dyn std::fmt::Display) -> String {
 /// The pictures of what the runs of a study make together.
 pub fn draw_upshot(upshot: &Upshot) -> Gallery {
     match upshot {
-        Upshot::Convergence(convergence) => levels::draw_convergence(convergence),
+        Upshot::Convergence(refinement) => levels::draw_convergence(refinement),
         Upshot::Sweep(sweep) => points::draw_sweep(sweep),
         Upshot::Tradeoff(tradeoff) => trades::draw_tradeoff(tradeoff),
         Upshot::Stability(stability) => stability::draw_stability(stability),
@@ -110,11 +110,48 @@ pub fn draw(runs: &[Run], kind: &Kind, ranking: &Ranking, references: &Reference
         let echo = echo(&runs, reference, ranking, &mut gallery.notes);
         gallery.add("echo", echo);
     }
+    for own in first.prepared.scene.pictures() {
+        gallery.add(own.name, curves(&runs, &own));
+    }
     gallery.add("ranking", bars(ranking));
     gallery.add("space-time", fields::space_time(&runs));
     gallery.add("snapshots", fields::snapshots(&runs, ranking, references));
     gallery.add("energy", energy(&runs, references));
     gallery
+}
+
+/// A scene's own number, all methods over what is true.
+fn curves(runs: &[&Run], own: &OwnPicture) -> Result<Option<Picture>, PictureError> {
+    let line = |name: &str, curve: Curve| Line {
+        name: name.to_owned(),
+        x: curve.x,
+        y: curve.y,
+    };
+    let of = |run: &&Run| {
+        let curve = run.prepared.scene.curve(own.name, &run.record)?;
+        Some(line(&run.manifest.method, curve))
+    };
+    let lines: Vec<Line> = runs.iter().filter_map(of).collect();
+    if lines.is_empty() {
+        return Ok(None);
+    }
+    let owned = |(name, unit): (&str, &str)| (name.to_owned(), unit.to_owned());
+    let drawing = WayPlot {
+        title: own.title.to_owned(),
+        x: owned(own.x),
+        y: owned(own.y),
+        reference: own.truth.clone().map(|(name, curve)| line(name, curve)),
+        lines,
+        marks: own.marks.clone(),
+    }
+    .draw()?;
+    Ok(Some(Picture {
+        name: own.name.to_owned(),
+        title: own.title.to_owned(),
+        caption: own.caption.to_owned(),
+        drawing,
+        raster: false,
+    }))
 }
 
 /// Receivers' series over the reference: velocities in the component that moves most, displacements
@@ -154,7 +191,7 @@ fn series(runs: &[&Run], reference: Option<&Reference>) -> Result<Picture, Pictu
     let drawing = TracePlot {
         quantity: match quantity {
             Quantity::Displacement => "|u|".to_owned(),
-            Quantity::Velocity => format!("velocity {}", ["x", "y"][axis.min(1)]),
+            Quantity::Velocity => format!("velocity {}", ["x", "y", "z"][axis.min(2)]),
         },
         unit: unit.to_owned(),
         panels,
@@ -408,13 +445,8 @@ fn strongest(traces: &Traces) -> usize {
 }
 
 /// Names and places (m) of the receivers.
-fn receivers(run: &Run) -> Vec<(String, [f64; 2])> {
-    let probes = run.prepared.scene.problem().probes;
-    probes
-        .receivers
-        .into_iter()
-        .map(|r| (r.name, r.place))
-        .collect()
+fn receivers(run: &Run) -> Vec<(String, Vec<f64>)> {
+    run.prepared.scene.posed().receivers()
 }
 
 /// A receiver's title.
@@ -424,6 +456,10 @@ fn place(run: &Run, name: &str) -> String {
         .find(|(receiver, _)| receiver == name)
         .map_or_else(
             || name.to_owned(),
-            |(name, [x, y])| format!("{name} (x = {x} m, y = {y} m)"),
+            |(name, place)| {
+                let along = ["x", "y", "z"].iter().zip(&place);
+                let along: Vec<String> = along.map(|(axis, x)| format!("{axis} = {x} m")).collect();
+                format!("{name} ({})", along.join(", "))
+            },
         )
 }

@@ -22,9 +22,9 @@ mod paper;
 mod values;
 
 use crate::checks::Checks;
+use crate::posed::Posed;
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
-use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::probe::Probes;
 use anechoic_solver::problem::{BasisKind, Drive, FlowSetup, Problem, Scheme, Side};
 use anechoic_solver::wavelet::{Pulse, Wavelet};
@@ -112,16 +112,16 @@ impl Compression1d {
             t0: 0.0,
         }
     }
-}
 
-impl Scene for Compression1d {
-    fn problem(&self) -> Problem<2> {
+    /// What the solver is given.
+    pub fn problem(&self) -> Problem<2> {
         let steps = self.time.end_s / self.dt();
         // Some 250 lines and 1000 energies make smooth pictures at any step size.
         let every = |samples: f64| (steps / samples).ceil().max(1.0) as usize;
         Problem {
             target: self.body.target(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
             basis: self.basis,
             scheme: self.time.scheme,
             mass: self.time.mass,
@@ -130,6 +130,7 @@ impl Scene for Compression1d {
             point_mode: self.points.mode,
             transfer: self.points.transfer,
             points_per_cell: self.points.per_cell,
+            face_gap: self.points.face_gap,
             material: self.material.elastic(),
             flow: FlowSetup::default(),
             sides: self.boundary.sides(),
@@ -146,6 +147,12 @@ impl Scene for Compression1d {
             solver: self.solver.kind,
             rel_tol: self.solver.rel_tol,
         }
+    }
+}
+
+impl Scene for Compression1d {
+    fn posed(&self) -> Posed {
+        self.problem().into()
     }
 
     fn boundary(&self) -> &BoundarySpec {
@@ -184,7 +191,7 @@ impl Scene for Compression1d {
 
     /// Their height: waves run up and down alone.
     fn cell_m(&self) -> f64 {
-        fitted_cell(&self.body.target(), self.grid.h_m)[1]
+        self.grid.cell(&self.body.target())[1]
     }
 
     fn orders(&self, sizes: &[f64]) -> Vec<SceneClaim> {

@@ -27,6 +27,7 @@ mod values;
 use crate::certified::causality::{serves_until, with_buffers};
 use crate::checks::Checks;
 use crate::half_space::{TARGET_AND_SOURCE, half_space_scene};
+use crate::posed::Posed;
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
 use anechoic_solver::problem::Problem;
@@ -60,18 +61,26 @@ pub static INFO: SceneInfo = SceneInfo {
 /// scene's own material.
 const STEP_PER_METRE: f64 = 0.0005;
 
+/// Panels of the finer quadrature over those of the usual one.
+const FINER: f64 = 0.25;
+
 impl Lamb {
     /// Time step (s).
     fn dt(&self) -> f64 {
         self.time.dt_s.unwrap_or(STEP_PER_METRE * self.cell_m())
     }
-}
 
-impl Scene for Lamb {
-    fn problem(&self) -> Problem<2> {
+    /// What the solver is given.
+    pub fn problem(&self) -> Problem<2> {
         let end = self.time.end_s;
         let problem = self.0.problem(self.dt(), vec![0.5 * end, end]);
         with_buffers(&problem, 1.0)
+    }
+}
+
+impl Scene for Lamb {
+    fn posed(&self) -> Posed {
+        self.problem().into()
     }
 
     fn boundary(&self) -> &BoundarySpec {
@@ -106,7 +115,11 @@ impl Scene for Lamb {
     }
 
     fn references(&self, times: &[f64]) -> Result<Vec<Reference>, String> {
-        exact::references(self, times)
+        exact::references(self, times, 1.0)
+    }
+
+    fn finer_references(&self, times: &[f64]) -> Result<Option<Vec<Reference>>, String> {
+        exact::references(self, times, FINER).map(Some)
     }
 
     fn claims(&self) -> Vec<SceneClaim> {

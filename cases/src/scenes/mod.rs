@@ -14,6 +14,7 @@ macro_rules! scenes {
 
 scenes! {
     compression_1d,
+    cube_source,
     lamb,
     mudmat,
     pipe_penetration,

@@ -22,12 +22,14 @@ mod values;
 
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
-use crate::scene::{self, Beside, OwnNumber, Reference, Scene, SceneClaim, SceneInfo, Window};
+use crate::posed::Posed;
+use crate::scene::{
+    self, Beside, Curve, OwnNumber, OwnPicture, Reference, Scene, SceneClaim, SceneInfo, Window,
+};
 use crate::spec::*;
 use anechoic_solver::contact::Contact;
 use anechoic_solver::contact::body::{Motion, RigidBody};
 use anechoic_solver::contact::shape::Shape;
-use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::material::herschel_bulkley::RateStrength;
 use anechoic_solver::material::strength::Strength;
 use anechoic_solver::probe::Probes;
@@ -234,6 +236,9 @@ pub static INFO: SceneInfo = SceneInfo {
     build: scene::build::<Mudmat>,
 };
 
+/// Times (s) at which the paper shows velocities.
+const SNAPSHOTS: [f64; 3] = [0.05, 0.3, 0.53];
+
 impl Mudmat {
     /// The slide at the start.
     fn slab(&self) -> Aabb<2> {
@@ -245,7 +250,7 @@ impl Mudmat {
 
     /// Shortest edge of a cell (m).
     fn h(&self) -> f64 {
-        let [x, y] = fitted_cell(&self.slab(), self.grid.h_m);
+        let [x, y] = self.grid.cell(&self.slab());
         x.min(y)
     }
 
@@ -255,13 +260,18 @@ impl Mudmat {
     }
 
     fn intruder(&self) -> Intruder {
-        // as far below the base as above it: under a rounded foot soil would be squeezed through
-        let half = [0.5 * self.mudmat.length_m, self.mudmat.exposed_m];
+        let Mat {
+            exposed_m: exposed,
+            length_m: length,
+            ..
+        } = self.mudmat;
+        // it reaches down into the base, so that what touches it at the base is pushed back and not down
+        let half = [0.5 * length, 0.5 * (exposed + length)];
         Intruder {
             name: "mudmat".to_owned(),
             body: RigidBody {
                 shape: Shape::Rectangle {
-                    centre: [half[0], 0.0],
+                    centre: [half[0], exposed - half[1]],
                     half,
                     corner_radius: (0.5 * self.h()).min(half[1]).min(half[0]),
                 },
@@ -285,16 +295,17 @@ impl Mudmat {
             reference_rate: self.material.reference_rate_1_s,
         })
     }
-}
 
-impl Scene for Mudmat {
-    fn problem(&self) -> Problem<2> {
+    /// What the solver is given.
+    pub fn problem(&self) -> Problem<2> {
         let (dt, end) = (self.dt(), self.time.end_s);
         let nu = self.material.elastic.nu;
         let every = |samples: f64| (end / dt / samples).ceil().max(1.0) as usize;
         Problem {
             target: self.slab(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
+            face_gap: self.points.face_gap,
             basis: self.basis,
             scheme: self.time.scheme,
             mass: Default::default(),
@@ -308,13 +319,14 @@ impl Scene for Mudmat {
                 strength: self.strength(),
                 update: self.flow.update,
                 pic_share: self.flow.pic_share,
+                mean_volumes: self.flow.volume == Volume::Cell,
                 gravity: self.slide.gravity_m_s2,
                 k0: (self.slide.gravity_m_s2 > 0.0).then_some(nu / (1.0 - nu)),
                 velocity: [self.slide.velocity_m_s, 0.0],
                 intruders: vec![self.intruder()],
                 // the front runs on over the mudmat, and heaps up before it
                 room: [
-                    [0.0, 1.5 * self.slide.velocity_m_s * end + 2.0],
+                    [0.0, 2.5 * self.slide.velocity_m_s * end + 2.0],
                     [0.0, 0.2 * self.body.height_m],
                 ],
                 ..FlowSetup::default()
@@ -324,12 +336,18 @@ impl Scene for Mudmat {
             probes: Probes {
                 receivers: self.receivers.iter().map(ReceiverSpec::probe).collect(),
                 lines: Vec::new(),
-                snapshot_times: Vec::new(),
+                snapshot_times: SNAPSHOTS.into_iter().filter(|t| *t <= end).collect(),
                 energy_every: Some(every(200.0)),
             },
             solver: SolverKind::Auto,
             rel_tol: 1e-10,
         }
+    }
+}
+
+impl Scene for Mudmat {
+    fn posed(&self) -> Posed {
+        self.problem().into()
     }
 
     fn boundary(&self) -> &BoundarySpec {
@@ -362,6 +380,14 @@ impl Scene for Mudmat {
 
     fn measures(&self, run: &Record, beside: &Beside<'_>) -> Vec<OwnNumber> {
         claims::numbers(self, run, beside)
+    }
+
+    fn pictures(&self) -> Vec<OwnPicture> {
+        claims::pictures(self)
+    }
+
+    fn curve(&self, _name: &str, run: &Record) -> Option<Curve> {
+        claims::curve(self, run)
     }
 
     fn claims(&self) -> Vec<SceneClaim> {

@@ -21,13 +21,15 @@ mod values;
 
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
-use crate::scene::{self, Beside, OwnNumber, Reference, Scene, SceneClaim, SceneInfo, Window};
+use crate::posed::Posed;
+use crate::scene::{
+    self, Beside, Curve, OwnNumber, OwnPicture, Reference, Scene, SceneClaim, SceneInfo, Window,
+};
 use crate::spec::*;
 use anechoic_solver::boundary::{SideMethod, extended};
 use anechoic_solver::contact::Contact;
 use anechoic_solver::contact::body::{Motion, RigidBody};
 use anechoic_solver::contact::shape::Shape;
-use anechoic_solver::geometry::fitted_cell;
 use anechoic_solver::material::strength::Strength;
 use anechoic_solver::probe::Probes;
 use anechoic_solver::problem::{
@@ -199,7 +201,7 @@ impl PipePenetration {
 
     /// Shortest edge of a cell (m).
     fn h(&self) -> f64 {
-        let [x, y] = fitted_cell(&self.soil(), self.grid.h_m);
+        let [x, y] = self.grid.cell(&self.soil());
         x.min(y)
     }
 
@@ -233,14 +235,15 @@ impl PipePenetration {
             },
         }
     }
-}
 
-impl Scene for PipePenetration {
-    fn problem(&self) -> Problem<2> {
+    /// What the solver is given.
+    pub fn problem(&self) -> Problem<2> {
         let (dt, end) = (self.dt(), self.end_s());
         Problem {
             target: self.soil(),
             cell_size: self.grid.h_m,
+            aspect: self.grid.aspect(),
+            face_gap: self.points.face_gap,
             basis: self.basis,
             scheme: self.time.scheme,
             mass: Default::default(),
@@ -256,6 +259,7 @@ impl Scene for PipePenetration {
                 },
                 update: self.flow.update,
                 pic_share: self.flow.pic_share,
+                mean_volumes: self.flow.volume == Volume::Cell,
                 intruders: vec![self.intruder()],
                 // what the pipe pushes aside has to go somewhere
                 room: [[0.0; 2], [0.0, 0.5 * self.pipe.diameter_m]],
@@ -266,12 +270,18 @@ impl Scene for PipePenetration {
             probes: Probes {
                 receivers: self.receivers.iter().map(ReceiverSpec::probe).collect(),
                 lines: Vec::new(),
-                snapshot_times: Vec::new(),
+                snapshot_times: [0.2, 0.6, 1.0].map(|share| share * end).to_vec(),
                 energy_every: Some((end / dt / 200.0).ceil().max(1.0) as usize),
             },
             solver: SolverKind::Auto,
             rel_tol: 1e-10,
         }
+    }
+}
+
+impl Scene for PipePenetration {
+    fn posed(&self) -> Posed {
+        self.problem().into()
     }
 
     fn boundary(&self) -> &BoundarySpec {
@@ -323,6 +333,14 @@ impl Scene for PipePenetration {
         let down = self.body.height_m + added(&sides.bottom)?;
         let reach = 0.5 * self.pipe.diameter_m + self.pipe.depth * self.pipe.diameter_m;
         Some((2.0 * right.min(down) - reach) / self.material.elastic.elastic().p_speed())
+    }
+
+    fn pictures(&self) -> Vec<OwnPicture> {
+        claims::pictures(self)
+    }
+
+    fn curve(&self, _name: &str, run: &Record) -> Option<Curve> {
+        claims::curve(self, run)
     }
 
     fn claims(&self) -> Vec<SceneClaim> {

@@ -30,6 +30,7 @@ mod values;
 
 use crate::checks::Checks;
 use crate::half_space::{TARGET_AND_SOURCE, half_space_scene};
+use crate::posed::Posed;
 use crate::scene::{self, Reference, Scene, SceneClaim, SceneInfo, Window};
 use crate::spec::*;
 use anechoic_reference::claim::Claim;
@@ -68,13 +69,18 @@ impl PointSource {
     fn dt(&self) -> f64 {
         self.time.dt_s.unwrap_or(0.01)
     }
-}
 
-impl Scene for PointSource {
-    fn problem(&self) -> Problem<2> {
+    /// What the solver is given.
+    pub fn problem(&self) -> Problem<2> {
         let end = self.time.end_s;
         let shown = SNAPSHOTS.into_iter().filter(|t| *t <= end);
         self.0.problem(self.dt(), shown.collect())
+    }
+}
+
+impl Scene for PointSource {
+    fn posed(&self) -> Posed {
+        self.problem().into()
     }
 
     fn boundary(&self) -> &BoundarySpec {
@@ -97,7 +103,7 @@ impl Scene for PointSource {
         Ok(Vec::new())
     }
 
-    fn extended(&self) -> Option<Problem<2>> {
+    fn extended(&self) -> Option<Posed> {
         let mut problem = self.problem();
         for side in problem.sides.iter_mut().flatten() {
             // What is free or a plane of symmetry belongs to the scene; all else is a way to end it.
@@ -105,7 +111,7 @@ impl Scene for PointSource {
                 *side = SideMethod::new("extended");
             }
         }
-        Some(problem)
+        Some(problem.into())
     }
 
     fn paper_test(&self) -> Option<&'static str> {

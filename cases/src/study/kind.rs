@@ -1,12 +1,10 @@
 //! What studies are for, and how their runs are told apart.
 
 use super::stored::Damage;
-use crate::over::level_in;
 use crate::prepare::Prepared;
 use crate::resume::folder;
 use crate::runner::Run;
 use crate::sweep::Grid;
-use anechoic_reports::convergence::{at_level, label};
 use anechoic_reports::row::Row;
 use serde::{Deserialize, Serialize};
 
@@ -19,11 +17,9 @@ pub enum Kind {
     Comparison,
     /// A method taken apart: what each part absorbs.
     Ablation,
-    /// A scene on finer and finer levels, coarse first: with which order errors fall.
-    Convergence {
-        /// The field that is refined.
-        over: String,
-    },
+    /// A scene on finer and finer levels of fields, coarse first: with which order errors fall; and what
+    /// each cause contributes to them.
+    Convergence(Grid),
     /// A scene at several points of its parameters, with several methods.
     Sweep(Grid),
     /// Each method over its own parameters: error against cost.
@@ -36,7 +32,10 @@ impl Kind {
     /// The points of a sweep or of ladders.
     pub fn grid(&self) -> Option<&Grid> {
         match self {
-            Kind::Sweep(grid) | Kind::Tradeoff(grid) | Kind::Stability(grid) => Some(grid),
+            Kind::Convergence(grid)
+            | Kind::Sweep(grid)
+            | Kind::Tradeoff(grid)
+            | Kind::Stability(grid) => Some(grid),
             _ => None,
         }
     }
@@ -56,10 +55,10 @@ impl Kind {
         match self {
             Kind::Comparison => case.to_owned(),
             Kind::Ablation => format!("{case}-ablation"),
-            Kind::Convergence { .. } => format!("{case}-converge"),
-            Kind::Sweep(grid) | Kind::Tradeoff(grid) | Kind::Stability(grid) => {
-                format!("{case}-{}", grid.name)
-            }
+            Kind::Convergence(grid)
+            | Kind::Sweep(grid)
+            | Kind::Tradeoff(grid)
+            | Kind::Stability(grid) => format!("{case}-{}", grid.name),
         }
     }
 
@@ -88,10 +87,7 @@ impl Kind {
             let point = grid.points_of(&folder).next();
             return point.map_or(method.to_owned(), |p| format!("{method}, {}", p.label));
         }
-        match self.level(scene) {
-            Some((over, value)) => format!("{method}, {}", label(over, value)),
-            None => method.to_owned(),
-        }
+        method.to_owned()
     }
 
     /// Is a row one of this run's?
@@ -102,17 +98,6 @@ impl Kind {
             return row.method == run.manifest.method
                 && grid.points_of(&folder).any(|point| at(&point.label));
         }
-        let place = self
-            .level(&run.prepared)
-            .map(|(over, value)| at_level("", over, value));
-        row.method == run.manifest.method && place.is_none_or(|end| row.place.ends_with(&end))
-    }
-
-    /// The field that is refined, and a scene's value of it.
-    fn level(&self, scene: &Prepared) -> Option<(&str, f64)> {
-        match self {
-            Kind::Convergence { over } => Some((over, level_in(&scene.table, over)?)),
-            _ => None,
-        }
+        row.method == run.manifest.method
     }
 }

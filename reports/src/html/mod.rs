@@ -2,7 +2,8 @@
 
 mod tables;
 
-use crate::convergence::Convergence;
+use crate::budget::{self, Budget};
+use crate::convergence::{Convergence, Refinement};
 use crate::export::{summary_csv, summary_json};
 use crate::format;
 use crate::judge::{Tally, verifies};
@@ -41,7 +42,7 @@ fn page(study: &Study) -> Markup {
                     (verdicts(study))
                     (ranking(study))
                     (upshot(study))
-                    (figures(&study.figures))
+                    (figures(&study.figures, &study.command))
                     (notes(&study.notes))
                     (ledger(study))
                     (downloads(study))
@@ -63,7 +64,7 @@ fn header(study: &Study) -> Markup {
                 li { (study.runs.len()) " runs" }
             }
             @if !study.summary.is_empty() { p { (study.summary) } }
-            p { "Made by " code { (study.command) } }
+            p.command { "Made by " code { (study.command) } }
         }
     }
 }
@@ -147,10 +148,31 @@ fn ranking(study: &Study) -> Markup {
 fn upshot(study: &Study) -> Markup {
     match &study.upshot {
         None => html! {},
-        Some(Upshot::Convergence(it)) => convergence(it),
+        Some(Upshot::Convergence(it)) => refinement(it),
         Some(Upshot::Sweep(it)) => sweep(it),
         Some(Upshot::Tradeoff(it)) => tradeoff(it),
         Some(Upshot::Stability(it)) => stable(it),
+    }
+}
+
+fn refinement(refinement: &Refinement) -> Markup {
+    html! {
+        @for study in &refinement.studies { (convergence(study)) }
+        @if let Some(budget) = &refinement.budget { (shares(budget)) }
+    }
+}
+
+fn shares(budget: &Budget) -> Markup {
+    html! {
+        section {
+            h2 { "Error budget" }
+            p.soft {
+                "What each cause contributes to the errors of " code { (budget.method) } " on the \
+                 scene as it stands, over the true series: distances of runs that differ in one \
+                 thing. Refinement says what a cause still changes, and does not verify."
+            }
+            (tables::texts(&budget::head(budget), &budget::cells(budget), 4))
+        }
     }
 }
 
@@ -163,6 +185,7 @@ fn convergence(convergence: &Convergence) -> Markup {
                  with (least squares, with its 95 % interval), and between neighbours."
             }
             (tables::convergence(convergence))
+            @for note in convergence.plateau_notes() { p { (note) } }
         }
     }
 }
@@ -209,8 +232,23 @@ fn stable(stability: &Stability) -> Markup {
                 h3 { (part.title) }
                 (tables::texts(&crate::stability::head(stability), &crate::stability::cells(stability, part), 1))
             }
-            h3 { "What is not stable, and why" }
-            (tables::texts(&["extreme", "method", "outcome"], &troubles(stability), 3))
+            h3 { "Largest stable step" }
+            p.soft { "The largest that was tried up to which all runs are stable." }
+            (tables::texts(&crate::stability::STEP_HEAD, &crate::stability::step_cells(stability), 1))
+            @if !stability.spectra.is_empty() {
+                h3 { "Spectra" }
+                p.soft {
+                    "A second opinion without runs: the largest real part of the operator of a mesh of a \
+                     few cells with the method's sides, over c_p/h. What is positive grows; 0 is within \
+                     rounding."
+                }
+                (tables::texts(&crate::stability::spectrum_head(stability), &crate::stability::spectrum_cells(stability), 1))
+            }
+            @let unstable = troubles(stability);
+            @if !unstable.is_empty() {
+                h3 { "What is not stable, and why" }
+                (tables::texts(&["extreme", "method", "outcome"], &unstable, 3))
+            }
         }
     }
 }
@@ -231,12 +269,12 @@ fn sweep(sweep: &Sweep) -> Markup {
     }
 }
 
-fn figures(figures: &[Figure]) -> Markup {
+fn figures(figures: &[Figure], command: &str) -> Markup {
     html! {
         @if !figures.is_empty() {
             section {
                 h2 { "Pictures" }
-                @for figure in figures { (picture(figure)) }
+                @for figure in figures { (picture(figure, command)) }
             }
         }
     }
@@ -253,7 +291,8 @@ fn notes(notes: &[String]) -> Markup {
     }
 }
 
-fn picture(figure: &Figure) -> Markup {
+/// A picture with its words and the command that makes it, which a click selects as a whole.
+fn picture(figure: &Figure, command: &str) -> Markup {
     html! {
         figure {
             @match &figure.image {
@@ -265,7 +304,10 @@ fn picture(figure: &Figure) -> Markup {
                         src={ "data:image/png;base64," (STANDARD.encode(bytes)) };
                 },
             }
-            figcaption { strong { (figure.title) "." } " " (figure.caption) }
+            figcaption {
+                strong { (figure.title) "." } " " (figure.caption)
+                div.command { "Made by " code { (command) } }
+            }
         }
     }
 }

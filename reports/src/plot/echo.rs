@@ -20,6 +20,7 @@ impl EchoPlot {
             title: title.clone(),
             reference: None,
             lines: lines.clone(),
+            marks: Vec::new(),
         };
         Panels {
             picture: "echo",

@@ -23,6 +23,7 @@ impl EnergyPlot {
                 title: "Energy in the target".to_owned(),
                 reference: self.reference.clone(),
                 lines: self.lines.clone(),
+                marks: Vec::new(),
             }],
             x_name: ("time", "s"),
             y_name: ("energy", &self.unit),

@@ -31,6 +31,7 @@ pub mod points;
 pub mod snapshots;
 pub mod space_time;
 pub mod traces;
+pub mod way;
 
 mod axis;
 mod heat;
@@ -49,6 +50,7 @@ pub use points::{PointPanel, PointPlot, PointSeries, Style};
 pub use snapshots::{Corners, Field, SnapshotPlot};
 pub use space_time::{Guide, SpaceTimePlot};
 pub use traces::{TracePanel, TracePlot};
+pub use way::WayPlot;
 
 use thiserror::Error;
 

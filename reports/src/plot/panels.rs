@@ -30,6 +30,8 @@ pub(super) struct Content {
     /// Drawn under the others, thick and grey.
     pub reference: Option<Line>,
     pub lines: Vec<Line>,
+    /// Abscissae that are ruled and labelled.
+    pub marks: Vec<(f64, String)>,
 }
 
 /// Vertical axis of the panels.
@@ -156,6 +158,17 @@ impl Panels<'_> {
             let share = i as f64 / (count.max(2) - 1) as f64;
             let stroke = Stroke::solid(palette::method(&line.name), 3.0 - 1.5 * share);
             draw_line(drawing, panel, line, stroke);
+        }
+        for (i, (x, label)) in content.marks.iter().enumerate() {
+            let at = panel.at(*x, 0.0).0;
+            if !(panel.left..=panel.right()).contains(&at) {
+                continue;
+            }
+            let stroke = Stroke::dashed(palette::SOFT, 1.0);
+            drawing.line((at, panel.top), (at, panel.bottom()), stroke);
+            // one below the other, so that near ones can be read
+            let place = (at + 5.0, panel.top + 10.0 + 13.0 * (i % 4) as f64);
+            drawing.text_in(label, place, 11.0, Align::Start, palette::SOFT);
         }
         if let Vertical::Log { floor: Some(floor) } = self.vertical {
             let y = panel.at(0.0, floor).1;

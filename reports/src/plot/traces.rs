@@ -32,6 +32,7 @@ impl TracePlot {
             title: panel.title.clone(),
             reference: panel.reference.clone(),
             lines: panel.lines.clone(),
+            marks: Vec::new(),
         };
         Panels {
             picture: "traces",

@@ -4,6 +4,7 @@
 //! that it makes in a step, at measured [`prices`].
 
 mod counts;
+mod flowing;
 mod prices;
 
 use crate::basis::{Discretisation, on_grid};
@@ -96,8 +97,13 @@ pub(crate) fn bill<const D: usize>(problem: &Problem<D>) -> Result<Bill, SolverE
         geometry: &geometry,
     };
     let mut items = vec![clerk.points(), clerk.basis(), clerk.nodes()];
-    items.extend(clerk.transfer());
-    items.extend(clerk.moving());
+    match clerk.flows() {
+        true => items.push(clerk.flowing()),
+        false => {
+            items.extend(clerk.transfer());
+            items.extend(clerk.moving());
+        }
+    }
     items.extend(clerk.consistent());
     items.extend(clerk.sides());
     items.extend(clerk.probes());
@@ -198,7 +204,7 @@ impl<const D: usize> Clerk<'_, D> {
 
     fn points(&self) -> Item {
         Item {
-            points: self.counts.all(),
+            points: self.counts.all() - self.flowing_points(),
             bytes_per_point: Points::<D>::BYTES,
             ..self.item("points", "place, volume, mass")
         }
@@ -206,7 +212,7 @@ impl<const D: usize> Clerk<'_, D> {
 
     fn basis(&self) -> Item {
         Item {
-            points: self.counts.all(),
+            points: self.counts.all() - self.flowing_points(),
             bytes_per_point: self.disc.bytes_per_point(),
             ..self.item(
                 &format!("{} basis", self.disc.name()),

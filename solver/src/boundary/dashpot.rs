@@ -75,7 +75,7 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
             impedance,
             moving: context.moving,
             velocity: context.velocity,
-            lumped: context.explicit,
+            lumped: context.explicit_dt.is_some(),
         }) as Box<dyn NodeTerm<D>>
     });
     Ok(Parts::of_terms(terms.collect()))

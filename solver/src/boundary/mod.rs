@@ -98,8 +98,8 @@ pub struct Context<'a, const D: usize> {
     pub transfer: Transfer,
     /// How the inertia of points reaches the nodes.
     pub mass: MassKind,
-    /// Are steps explicit?
-    pub explicit: bool,
+    /// Length of an explicit step (s); `None` when steps are implicit.
+    pub explicit_dt: Option<f64>,
     /// When the run ends (s).
     pub end_time: f64,
     /// All points.

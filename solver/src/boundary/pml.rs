@@ -12,7 +12,8 @@
 //! P_ij = sum_k C_ijkj (g_kj + r_j phi_kj) + sum_{l /= j} sum_k C_ijkl g_kl
 //! ```
 //!
-//! The points of the layer rest and its nodes keep their motion; the outer edge is fixed.
+//! The points of the layer rest and its nodes keep their motion; the outer edge is fixed. This is the layer
+//! of the plane; in three dimensions it remembers more: solid.rs.
 //!
 //! Without the shift alpha (Kuzuoglu & Mittra 1996) the stretch of a load that stays on grows for ever,
 //! and the layer clamps it. With it the stretch ends at 1 + beta_j/alpha: the layer rests like elastic
@@ -20,6 +21,7 @@
 //! T the length of the run. One alpha holds in the whole layer, or corners would need a third memory.
 
 mod shift;
+mod solid;
 
 use super::layer::{by_axis, relative_depth};
 use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
@@ -35,7 +37,8 @@ use crate::physics::stiffness::scatter_moduli;
 use crate::points::{BLOCK, Points, blocks};
 use crate::problem::{MassKind, Problem, Scheme, Side, Transfer};
 use crate::tensor::{Matrix, Tensor4, Vector, contract, zero};
-use shift::{Layer, STATIC_LOADS, ShiftedInertia, one_shift, shift_of};
+use shift::{Layer, STATIC_LOADS, ShiftedInertia, asks_for_shift, one_shift, shift_of};
+use solid::Solid;
 use std::ops::Range;
 
 /// The method's entry.
@@ -129,9 +132,6 @@ pub(crate) fn layout<const D: usize>(
             reason: reason.to_owned(),
         })
     };
-    if D != 2 {
-        return refuse("the implicit perfectly matched layer is two-dimensional");
-    }
     if problem.scheme == Scheme::QuasiStatic {
         return refuse(
             "a perfectly matched layer absorbs waves; use fixed or roller with quasi-static",
@@ -150,6 +150,14 @@ pub(crate) fn layout<const D: usize>(
         );
     }
     one_shift(problem, side, method)?;
+    if D == 3 && asks_for_shift(method) {
+        return refuse(
+            "in three dimensions the layer clamps what stays on; leave out static_load and alpha_per_s",
+        );
+    }
+    if D == 3 && problem.mass == MassKind::Consistent {
+        return refuse("in three dimensions the layer needs time.mass = \"lumped\"");
+    }
     let outside = method
         .given_number("thickness_m")
         .unwrap_or(DEFAULT_CELLS * problem.cell_size);
@@ -196,6 +204,15 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
         let (depth, strength) = (relative_depth(context, x), by_axis(context, x, strength));
         std::array::from_fn(|a| strength[a] * depth[a] * depth[a])
     });
+    let beta: Vec<Vector<D>> = beta.collect();
+    if D == 3 {
+        let material = LinearElastic::new(&context.material);
+        let kernel = Solid::new(context.layer.clone(), material, beta, context.explicit_dt);
+        return Ok(Parts {
+            kernel: Some(Box::new(kernel)),
+            ..Parts::of_terms(walls(context))
+        });
+    }
     let n = places.len();
     let alpha = shift_of(context);
     let consistent = context.mass == MassKind::Consistent;
@@ -205,7 +222,7 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
         range: context.layer.clone(),
         material: LinearElastic::new(&context.material),
         moduli: LinearElastic::new(&context.material).small_moduli(),
-        beta: beta.collect(),
+        beta,
         alpha,
         shifted,
         gradient: vec![zero(); n],
@@ -244,7 +261,7 @@ struct Coefficients<const D: usize> {
     gain: Vector<D>,
 }
 
-/// r_l of each axis (1/s): in two dimensions the other axis's damping less its own.
+/// r_l of each axis (1/s): the other axes' damping less its own.
 #[inline]
 fn opposite_less_own<const D: usize>(beta: &Vector<D>) -> Vector<D> {
     let total: f64 = beta.iter().sum();
@@ -276,16 +293,18 @@ impl<const D: usize> Coefficients<D> {
     }
 }
 
-impl<const D: usize> Pml<D> {
-    /// g' of a block at the trial increment.
-    fn next_gradient(&self, trial: &Trial<'_, D>, block: &Range<usize>, out: &mut [Matrix<D>]) {
-        trial.disc.gradient(block.clone(), trial.increment, out);
-        let start = block.start - self.range.start;
-        for (o, g) in out.iter_mut().zip(&self.gradient[start..]) {
-            for k in 0..D {
-                for l in 0..D {
-                    o[k][l] += g[k][l];
-                }
+/// g' of a block at the trial increment; `own` has the g of its points.
+fn next_gradient<const D: usize>(
+    trial: &Trial<'_, D>,
+    block: &Range<usize>,
+    own: &[Matrix<D>],
+    out: &mut [Matrix<D>],
+) {
+    trial.disc.gradient(block.clone(), trial.increment, out);
+    for (o, g) in out.iter_mut().zip(own) {
+        for k in 0..D {
+            for l in 0..D {
+                o[k][l] += g[k][l];
             }
         }
     }
@@ -356,7 +375,8 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
         let (mut next, mut stress) = ([zero::<D>(); BLOCK], [zero::<D>(); BLOCK]);
         for block in blocks(self.range.clone()) {
             let n = block.len();
-            self.next_gradient(trial, &block, &mut next[..n]);
+            let own = &self.gradient[block.start - self.range.start..];
+            next_gradient(trial, &block, own, &mut next[..n]);
             for (b, (g, stress)) in next[..n].iter().zip(&mut stress).enumerate() {
                 let q = block.start - self.range.start + b;
                 let c = Coefficients::new(&self.beta[q], self.alpha, trial.dt);
@@ -399,7 +419,8 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
         let mut next = [zero::<D>(); BLOCK];
         for block in blocks(self.range.clone()) {
             let n = block.len();
-            self.next_gradient(trial, &block, &mut next[..n]);
+            let own = &self.gradient[block.start - self.range.start..];
+            next_gradient(trial, &block, own, &mut next[..n]);
             for (b, g) in next[..n].iter().enumerate() {
                 let q = block.start - self.range.start + b;
                 let c = Coefficients::new(&self.beta[q], self.alpha, trial.dt);
@@ -411,6 +432,12 @@ impl<const D: usize> RegionKernel<D> for Pml<D> {
             shifted.commit(trial);
         }
         Ok(())
+    }
+
+    fn memories(&mut self) -> Vec<&mut [f64]> {
+        let mut all = vec![self.memory.as_flattened_mut().as_flattened_mut()];
+        all.extend(self.shifted.iter_mut().flat_map(ShiftedInertia::memory));
+        all
     }
 
     fn stiffness(&self) -> Stiffness {

@@ -399,6 +399,14 @@ impl<const D: usize> RegionKernel<D> for Stretched<D> {
         Ok(())
     }
 
+    fn memories(&mut self) -> Vec<&mut [f64]> {
+        let Some(memory) = &mut self.memory else {
+            return Vec::new();
+        };
+        let all = memory.history.iter_mut().chain([&mut memory.load]);
+        all.map(|values| values.as_flattened_mut()).collect()
+    }
+
     fn stiffness(&self) -> Stiffness {
         Stiffness::Constant
     }

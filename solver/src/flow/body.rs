@@ -1,18 +1,18 @@
 //! The points of one region: a basis, a law, columns, and the passes over strips and blocks.
 
 use super::columns::{Columns, Part, Sorting};
-use super::gather::Gather;
-use super::lanes::{PackMotion, Packed, Unpack};
-use super::scatter::{Run, Scatter};
+use super::fbar::Cells;
+use super::fixed::{Fixed, Nodes};
+use super::lanes::Packed;
+use super::scatter::Run;
 use super::stencils::Stencils;
 use super::strips::{Strips, Sums, each};
 use super::{Carry, Fault, Flow, NodeSums, Start};
 use crate::basis::along::Basis;
-use crate::grid::Grid;
 use crate::material::law::Law;
 use crate::points::{BLOCK, blocks};
-use crate::tensor::{Matrix, Vector, add_scaled, identity, inverse, zero};
-use pulp::{Arch, NullaryFnOnce};
+use crate::tensor::{Matrix, Vector, zero};
+use pulp::Arch;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Steps after which points are sorted again at the latest: sorting costs about as much as a step.
@@ -25,33 +25,12 @@ pub(super) struct Body<B, L: Law<D>, const D: usize> {
     columns: Columns<L::State, D>,
     sorting: Sorting<L::State, D>,
     strips: Strips,
+    /// Where cells' divergences replace the points'.
+    cells: Option<Cells>,
     /// Steps since the points were sorted.
     age: usize,
     /// Has a point left its strip?
     strayed: AtomicBool,
-}
-
-/// What does not change during a run.
-#[derive(Clone, Debug)]
-struct Fixed<B, L, const D: usize> {
-    arch: Arch,
-    grid: Grid<D>,
-    basis: B,
-    law: L,
-    carry: Carry,
-    shared: bool,
-    mass: f64,
-    volume: f64,
-    /// From a node to the next along each axis.
-    stride: [usize; D],
-}
-
-/// The motion of the nodes and the step.
-#[derive(Clone, Copy)]
-struct Nodes<'a, const D: usize> {
-    v: &'a [Vector<D>],
-    a: &'a [Vector<D>],
-    dt: f64,
 }
 
 impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
@@ -68,6 +47,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
             None => vec![L::State::default(); n],
         };
         let affine = start.carry == Carry::Affine;
+        let cells = start.mean_volumes.then(|| Cells::new(&grid));
         let mut body = Body {
             strips: Strips::new(&grid, B::WIDTH),
             fixed: Fixed {
@@ -88,6 +68,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
                 state,
             },
             sorting: Sorting::default(),
+            cells,
             age: 0,
             strayed: AtomicBool::new(false),
         };
@@ -135,42 +116,8 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
         let mut packed = [Packed::ZERO; BLOCK];
         for block in blocks(self.strips.points[strip]..self.strips.points[strip + 1]) {
             fixed.fill(&mut stencils, &columns.place[block.clone()])?;
-            let gradient: &[Matrix<D>] = match fixed.carry {
-                Carry::Affine => &columns.gradient[block.clone()],
-                Carry::Flip { .. } => &[],
-            };
-            fixed.arch.dispatch(PackMotion {
-                mass: fixed.mass,
-                velocity: &columns.velocity[block.clone()],
-                gradient,
-                packed: &mut packed,
-            });
-            if out.others.is_some() {
-                fixed.arch.dispatch(PackStress {
-                    law: &fixed.law,
-                    volume: fixed.volume,
-                    state: &columns.state[block.clone()],
-                    packed: &mut packed,
-                });
-            }
-            macro_rules! pass {
-                ($width:literal) => {
-                    fixed.arch.dispatch(Scatter::<D, $width> {
-                        n: block.len(),
-                        stencils: &stencils,
-                        h: &fixed.grid.h,
-                        stride: fixed.stride,
-                        mass: fixed.mass,
-                        packed: &packed,
-                        run: &mut run,
-                        out,
-                    })
-                };
-            }
-            match B::WIDTH {
-                2 => pass!(2),
-                _ => pass!(3),
-            }
+            fixed.pack(columns, block.clone(), out, &mut packed);
+            fixed.scatter(block.len(), &stencils, &packed, &mut run, out);
         }
         Ok(())
     }
@@ -178,9 +125,19 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
     /// A pass to the points.
     fn gather<const KICK: bool, const MOVE: bool>(
         &mut self,
-        nodes: Nodes<'_, D>,
+        v: &[Vector<D>],
+        a: &[Vector<D>],
+        dt: f64,
     ) -> Result<(), Fault<D>> {
         let (fixed, strips, strayed) = (&self.fixed, &self.strips, &self.strayed);
+        let cells = match &mut self.cells {
+            Some(cells) if MOVE => {
+                cells.diverge(&fixed.grid, v);
+                Some(&cells.values[..])
+            }
+            _ => None,
+        };
+        let nodes = Nodes { v, a, cells, dt };
         let work = |strip: usize, mut part: Part<'_, L::State, D>| {
             let leash = strips.leash(strip, B::WIDTH);
             let mut stencils = Stencils::new();
@@ -189,7 +146,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
                 let n = part.place.len().min(BLOCK);
                 let (mut block, rest) = part.split_at(n);
                 fixed.fill(&mut stencils, block.place)?;
-                fixed.gather_block::<KICK, MOVE>(&stencils, nodes, &mut block)?;
+                fixed.gather::<KICK, MOVE>(&stencils, nodes, &mut block)?;
                 if MOVE {
                     let (axis, grid) = (D - 1, &fixed.grid);
                     for x in block.place.iter() {
@@ -222,100 +179,30 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
     }
 }
 
-impl<B: Basis, L, const D: usize> Fixed<B, L, D> {
-    fn fill(&self, stencils: &mut Stencils<D>, places: &[Vector<D>]) -> Result<(), Fault<D>> {
-        stencils
-            .fill(self.arch, &self.basis, &self.grid, places)
-            .map_err(|p| Fault::Left { place: places[p] })
-    }
-}
-
-impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
-    fn gather_block<const KICK: bool, const MOVE: bool>(
-        &self,
-        stencils: &Stencils<D>,
-        nodes: Nodes<'_, D>,
-        block: &mut Part<'_, L::State, D>,
-    ) -> Result<(), Fault<D>> {
-        let n = block.place.len();
-        let mut packed = [Packed::ZERO; BLOCK];
-        macro_rules! gather {
-            ($width:literal) => {
-                self.arch.dispatch(Gather::<D, $width> {
-                    n,
-                    stencils,
-                    stride: self.stride,
-                    v: nodes.v,
-                    a: nodes.a,
-                    packed: &mut packed,
-                })
-            };
-        }
-        match B::WIDTH {
-            2 => gather!(2),
-            _ => gather!(3),
-        }
-        macro_rules! unpack {
-            ($affine:literal, $pic:expr) => {
-                self.arch.dispatch(Unpack::<D, $affine, KICK, MOVE> {
-                    packed: &packed,
-                    dt: nodes.dt,
-                    pic: $pic,
-                    place: block.place,
-                    velocity: block.velocity,
-                    gradient: block.gradient,
-                })
-            };
-        }
-        let finite = match self.carry {
-            Carry::Affine => unpack!(true, 0.0),
-            Carry::Flip { pic } => unpack!(false, pic),
-        };
-        if !finite {
-            return Err(unsound(block.place, |p| {
-                block.velocity[p].iter().all(|v| v.is_finite())
-            }));
-        }
-        if !MOVE {
-            return Ok(());
-        }
-        let packed = &packed[..n];
-        let sound = self.arch.dispatch(Advance {
-            law: &self.law,
-            packed,
-            dt: nodes.dt,
-            state: block.state,
-        });
-        if sound {
-            return Ok(());
-        }
-        for (packed, &place) in packed.iter().zip(block.place.iter()) {
-            let increment = add_scaled(&identity(), nodes.dt, &packed.gradient());
-            let (determinant, _) = inverse(&increment);
-            if determinant <= 0.0 {
-                return Err(Fault::Inverted { place, determinant });
-            }
-        }
-        Err(unsound(block.place, |p| {
-            block.state[p].as_ref().iter().all(|x| x.is_finite())
-        }))
-    }
-}
-
 impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
     fn to_nodes(&mut self, out: &mut NodeSums<D>) -> Result<(), Fault<D>> {
         if *self.strayed.get_mut() || self.age >= SORT_EVERY {
             self.sort()?;
         }
-        self.scatter(Sums::all(out))
+        let mut cells = self.cells.take();
+        let sums = cells.as_mut().map(|cells| {
+            cells.values.fill(0.0);
+            &mut cells.values[..]
+        });
+        let done = self.scatter(Sums::all(out, sums));
+        if let Some(cells) = &cells {
+            cells.force(&self.fixed.grid, &mut out.force);
+        }
+        self.cells = cells;
+        done
     }
 
     fn to_points(&mut self, v: &[Vector<D>], a: &[Vector<D>], dt: f64) -> Result<(), Fault<D>> {
-        self.gather::<true, true>(Nodes { v, a, dt })
+        self.gather::<true, true>(v, a, dt)
     }
 
     fn kick(&mut self, v: &[Vector<D>], a: &[Vector<D>], dt: f64) -> Result<(), Fault<D>> {
-        self.gather::<true, false>(Nodes { v, a, dt })
+        self.gather::<true, false>(v, a, dt)
     }
 
     fn momentum(&mut self, out: &mut [Vector<D>]) -> Result<(), Fault<D>> {
@@ -323,11 +210,12 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
             first: 0,
             momentum: out,
             others: None,
+            cells: None,
         })
     }
 
     fn drift(&mut self, v: &[Vector<D>], dt: f64) -> Result<(), Fault<D>> {
-        self.gather::<false, true>(Nodes { v, a: v, dt })
+        self.gather::<false, true>(v, v, dt)
     }
 
     fn len(&self) -> usize {
@@ -372,67 +260,5 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
         };
         // places and velocities share a second copy
         3 * vector + 2 * (gradient + state) + 2 * size_of::<u32>()
-    }
-}
-
-/// The failure of the first point of a block whose field is not `sound`.
-fn unsound<const D: usize>(places: &[Vector<D>], sound: impl Fn(usize) -> bool) -> Fault<D> {
-    let first = (0..places.len()).find(|&p| !sound(p));
-    Fault::NonFinite {
-        field: "motion",
-        place: places[first.unwrap_or(0)],
-    }
-}
-
-/// Packs the stresses of a block.
-struct PackStress<'a, L: Law<D>, const D: usize> {
-    law: &'a L,
-    /// Volume of a point at the start (m3).
-    volume: f64,
-    state: &'a [L::State],
-    packed: &'a mut [Packed<D>; BLOCK],
-}
-
-impl<L: Law<D>, const D: usize> NullaryFnOnce for PackStress<'_, L, D> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        for (packed, state) in self.packed.iter_mut().zip(self.state) {
-            let stress = self.law.stress(state);
-            for d in 0..D {
-                for i in 0..D {
-                    packed.columns[d][1][i] = -self.volume * stress[i][d];
-                }
-            }
-        }
-    }
-}
-
-/// A step of the law for a block; false when an increment has no positive determinant or a state is
-/// not finite.
-struct Advance<'a, L: Law<D>, const D: usize> {
-    law: &'a L,
-    packed: &'a [Packed<D>],
-    dt: f64,
-    state: &'a mut [L::State],
-}
-
-impl<L: Law<D>, const D: usize> NullaryFnOnce for Advance<'_, L, D> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn call(self) -> bool {
-        let mut sound = true;
-        for (packed, state) in self.packed.iter().zip(self.state) {
-            let l = packed.gradient();
-            let (determinant, _) = inverse(&add_scaled(&identity(), self.dt, &l));
-            sound &= determinant > 0.0;
-            self.law.advance(&l, self.dt, state);
-            for x in state.as_ref() {
-                sound &= x.is_finite();
-            }
-        }
-        sound
     }
 }

@@ -23,11 +23,15 @@
 
 mod body;
 mod columns;
+mod fbar;
+mod fixed;
 mod gather;
 mod lanes;
+mod law_blocks;
 mod scatter;
 mod stencils;
 mod strips;
+pub mod surface;
 #[cfg(test)]
 mod tests;
 
@@ -223,10 +227,10 @@ pub trait Flow<const D: usize>: Send {
     fn bytes_per_point(&self) -> usize;
 }
 
-/// A region as it starts.
+/// A region as it starts. The columns are as long as `places`.
 #[derive(Clone, Debug)]
 pub struct Start<const D: usize> {
-    /// The background grid.
+    /// The background grid, with at least as many nodes along each axis as a point sees.
     pub grid: Grid<D>,
     /// The basis.
     pub basis: BasisKind,
@@ -244,6 +248,9 @@ pub struct Start<const D: usize> {
     pub density: f64,
     /// How points carry the motion.
     pub carry: Carry,
+    /// Replace the points' divergences by their cells' (F-bar), against locking of what hardly changes
+    /// its volume?
+    pub mean_volumes: bool,
     /// Share the work with the threads of the pool that the passes are called in?
     pub shared: bool,
 }

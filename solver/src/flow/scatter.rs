@@ -82,9 +82,11 @@ impl<const D: usize, const W: usize> Scatter<'_, '_, D, W> {
     fn add<S: Simd>(&mut self, p: usize) {
         let s = self.stencils;
         let packed = &self.packed[p];
-        let along: [f64; WIDEST] = std::array::from_fn(|i| s.values[0][i][p]);
-        let away: [f64; WIDEST] =
-            std::array::from_fn(|i| along[i] * (s.away[0][p] + self.h[0] * i as f64));
+        let (mut evens, mut odds) = ([[[0.0; D]; 2]; ROWS], [[[0.0; D]; 2]; ROWS]);
+        let mut along = [0.0; WIDEST + 1];
+        for i in 0..W {
+            along[i] = s.values[0][i][p];
+        }
         for row in 0..Self::ROWS {
             let mut index = [0; D];
             let mut rest = row;
@@ -94,8 +96,8 @@ impl<const D: usize, const W: usize> Scatter<'_, '_, D, W> {
                 rest /= W;
                 r *= s.values[d][index[d]][p];
             }
-            let mut even: Lanes<D> = [[0.0; D]; 2];
-            add::<S, D>(&mut even, [r, r], &packed.value);
+            let even = &mut evens[row];
+            add::<S, D>(even, [r, r], &packed.value);
             for d in 1..D {
                 let mut slope = s.slopes[d][index[d]][p];
                 for e in 1..D {
@@ -104,18 +106,21 @@ impl<const D: usize, const W: usize> Scatter<'_, '_, D, W> {
                     }
                 }
                 let away = r * (s.away[d][p] + self.h[d] * index[d] as f64);
-                add::<S, D>(&mut even, [away, slope], &packed.columns[d]);
+                add::<S, D>(even, [away, slope], &packed.columns[d]);
             }
-            let mut odd: Lanes<D> = [[0.0; D]; 2];
-            add::<S, D>(&mut odd, [r, r], &packed.columns[0]);
-            for i in 0..W {
+            add::<S, D>(&mut odds[row], [r, r], &packed.columns[0]);
+            for (count, n) in self.run.count[row].iter_mut().zip(&along) {
+                *count += r * n;
+            }
+        }
+        for i in 0..W {
+            let n = along[i];
+            let away = n * (s.away[0][p] + self.h[0] * i as f64);
+            for row in 0..Self::ROWS {
                 let mut lanes = self.run.lanes[row][i];
-                add::<S, D>(&mut lanes, [along[i], along[i]], &even);
-                add::<S, D>(&mut lanes, [away[i], s.slopes[0][i][p]], &odd);
+                add::<S, D>(&mut lanes, [n, n], &evens[row]);
+                add::<S, D>(&mut lanes, [away, s.slopes[0][i][p]], &odds[row]);
                 self.run.lanes[row][i] = lanes;
-            }
-            for i in 0..W {
-                self.run.count[row][i] += r * along[i];
             }
         }
     }

@@ -3,6 +3,7 @@
 pub mod bicgstab;
 pub mod block_matrix;
 pub mod cg;
+pub mod dense;
 pub mod direct;
 
 use crate::error::SolverError;

@@ -36,14 +36,14 @@ pub trait Components<const D: usize>:
     const SHEAR: &'static [usize];
 
     /// Mean stress (Pa).
-    #[inline]
+    #[inline(always)]
     fn mean(&self) -> f64 {
         let (s, [a, b, c]) = (self.as_ref(), Self::NORMAL);
         (s[a] + s[b] + s[c]) * (1.0 / 3.0)
     }
 
     /// J2 (Pa2), from the differences of the normal stresses.
-    #[inline]
+    #[inline(always)]
     fn j2(&self) -> f64 {
         let (s, [a, b, c]) = (self.as_ref(), Self::NORMAL);
         let (ab, bc, ca) = (s[a] - s[b], s[b] - s[c], s[c] - s[a]);
@@ -55,7 +55,7 @@ pub trait Components<const D: usize>:
     }
 
     /// The same stress with its deviator at `share` of itself.
-    #[inline]
+    #[inline(always)]
     fn with_deviator(mut self, share: f64) -> Self {
         let mean = self.mean();
         let s = self.as_mut();
@@ -120,7 +120,7 @@ impl Hypoelastic {
 /// Shortens the deviator of `trial` until sqrt(J2) is the strength (Pa).
 ///
 /// `strength` is asked only where sqrt(J2) exceeds `least`, which it must not fall below.
-#[inline]
+#[inline(always)]
 pub fn radial_return<const D: usize, S: Components<D>>(
     trial: S,
     least: f64,

@@ -36,7 +36,7 @@ pub struct RateStrength {
 
 impl RateStrength {
     /// Undrained shear strength (Pa) at the shear strain `rate` (1/s), Eq (8).
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, rate: f64) -> f64 {
         self.s_u0 * (1.0 + self.viscosity * (rate / self.reference_rate).powf(self.index))
     }
@@ -64,7 +64,7 @@ impl Law<2> for HerschelBulkley {
     type State = [f64; 4];
     const NAME: &'static str = "Herschel-Bulkley";
 
-    #[inline]
+    #[inline(always)]
     fn advance(&self, l: &Matrix<2>, dt: f64, state: &mut [f64; 4]) {
         let step = PlaneStep::new(l, dt);
         let trial = step.trial(&self.elastic, state);
@@ -73,7 +73,7 @@ impl Law<2> for HerschelBulkley {
         });
     }
 
-    #[inline]
+    #[inline(always)]
     fn stress(&self, state: &[f64; 4]) -> Matrix<2> {
         let [xx, yy, xy, _] = *state;
         [[xx, xy], [xy, yy]]

@@ -8,6 +8,10 @@ use std::fmt::Debug;
 ///
 /// Stresses are Kirchhoff stresses `tau = J sigma` (Pa), which go with volumes of the start; tension is
 /// positive. In plane strain a law that flows keeps the stress across the plane as well.
+///
+/// `advance` and `stress`, and all that they call, are best `#[inline(always)]`: they are compiled into
+/// loops over points for wider vectors than the rest of the program, and what stays outside does not
+/// follow. (Twice the rate of the whole step for von Mises.)
 pub trait Law<const D: usize>: Copy + Debug + Send + Sync + 'static {
     /// What a point remembers: a short array of numbers, zero where it is free of stress.
     type State: Copy + Debug + Default + AsRef<[f64]> + AsMut<[f64]> + Send + Sync + 'static;

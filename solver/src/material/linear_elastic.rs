@@ -14,8 +14,9 @@
 //! Along one axis this is Hencky's law, tau = (lambda + 2 G) ln s, to third order in the increment.
 //! The Kirchhoff stress makes the tangent symmetric at the start of a step.
 
+mod explicit;
+
 use super::MaterialBlock;
-use super::law::Law;
 use crate::problem::Elastic;
 use crate::tensor::{
     Matrix, Tensor4, add_scaled, contract, dot, identity, inverse, mul, mul_transposed, skew, sym,
@@ -206,52 +207,6 @@ impl<const D: usize> MaterialBlock<D> for LinearElastic {
         0.25 / self.shear * (contract(stress, stress) - bulk_like * tr * tr)
     }
 }
-
-/// Explicit steps: the same law, point by point; a point remembers its stress.
-macro_rules! explicit {
-    ($d:literal, $entries:expr) => {
-        impl Law<$d> for LinearElastic {
-            /// Components of stress (Pa), as listed in the constant's own order.
-            type State = [f64; $entries.len()];
-
-            const NAME: &'static str = "linear elastic";
-
-            #[inline(always)]
-            fn advance(&self, l: &Matrix<$d>, dt: f64, state: &mut Self::State) {
-                let increment = Increment::new(&l.map(|row| row.map(|x| dt * x)));
-                let stress = Law::<$d>::stress(self, state);
-                let strain = self.law(&sym(&increment.gradient));
-                let next = add_scaled(&increment.rotated(&stress), 1.0, &strain);
-                *state = $entries.map(|(i, j)| next[i][j]);
-            }
-
-            #[inline(always)]
-            fn stress(&self, state: &Self::State) -> Matrix<$d> {
-                let mut stress = zero();
-                for (&x, (i, j)) in state.iter().zip($entries) {
-                    stress[i][j] = x;
-                    stress[j][i] = x;
-                }
-                stress
-            }
-
-            fn prestressed(&self, stress: &Matrix<$d>) -> Self::State {
-                $entries.map(|(i, j)| stress[i][j])
-            }
-
-            fn energy_density(&self, state: &Self::State) -> f64 {
-                MaterialBlock::<$d>::energy_density(self, &Law::<$d>::stress(self, state))
-            }
-
-            fn p_modulus(&self) -> f64 {
-                self.lambda + 2.0 * self.shear
-            }
-        }
-    };
-}
-
-explicit!(2, [(0, 0), (1, 1), (0, 1)]);
-explicit!(3, [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)]);
 
 #[cfg(test)]
 mod tests {

@@ -37,13 +37,13 @@ impl Law<2> for VonMises {
     type State = [f64; 4];
     const NAME: &'static str = "von Mises";
 
-    #[inline]
+    #[inline(always)]
     fn advance(&self, l: &Matrix<2>, dt: f64, state: &mut [f64; 4]) {
         let trial = PlaneStep::new(l, dt).trial(&self.elastic, state);
         *state = radial_return(trial, self.strength, || self.strength);
     }
 
-    #[inline]
+    #[inline(always)]
     fn stress(&self, state: &[f64; 4]) -> Matrix<2> {
         let [xx, yy, xy, _] = *state;
         [[xx, xy], [xy, yy]]
@@ -67,13 +67,13 @@ impl Law<3> for VonMises {
     type State = [f64; 6];
     const NAME: &'static str = "von Mises";
 
-    #[inline]
+    #[inline(always)]
     fn advance(&self, l: &Matrix<3>, dt: f64, state: &mut [f64; 6]) {
         let trial = SolidStep::new(l, dt).trial(&self.elastic, state);
         *state = radial_return(trial, self.strength, || self.strength);
     }
 
-    #[inline]
+    #[inline(always)]
     fn stress(&self, state: &[f64; 6]) -> Matrix<3> {
         tensor(state)
     }

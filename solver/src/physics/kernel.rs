@@ -120,6 +120,12 @@ pub trait RegionKernel<const D: usize>: Send {
     /// An inverted point.
     fn commit(&mut self, trial: &Trial<'_, D>) -> Result<(), SolverError>;
 
+    /// What it remembers beside what follows from the nodes' displacement, all of it linear: a caller
+    /// may read it and put something else there, as spectra do.
+    fn memories(&mut self) -> Vec<&mut [f64]> {
+        Vec::new()
+    }
+
     /// What the tangent depends on.
     fn stiffness(&self) -> Stiffness;
 

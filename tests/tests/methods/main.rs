@@ -7,6 +7,7 @@ mod explicit;
 mod growth;
 mod operator;
 mod pml;
+mod pml_space;
 mod published_layer;
 mod static_load;
 mod sweep;

@@ -3,8 +3,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a gate fails by panicking")]
 
+use anechoic::spectrum::{small, spectrum};
 use anechoic_solver::boundary::SideMethod;
-use anechoic_solver::problem::{MassKind, Problem};
+use anechoic_solver::problem::{MassKind, Problem, SolverKind};
 use anechoic_solver::tensor::Vector;
 use anechoic_tests::dense::{largest_real_part, probed, tiny};
 use anechoic_tests::twin::{Broken, Twin};
@@ -47,11 +48,25 @@ fn the_true_layers_tangent_is_symmetric_to_rounding() {
 /// M dv = -C v - Kd u - sum V B' P(B u, phi) - T_1 theta_1 - T_2 theta_2,
 /// dtheta_1 = u - alpha theta_1, dtheta_2 = theta_1 - alpha theta_2 (none of these where alpha = 0).
 fn growth_of_the_true_layer(nu: f64, alpha: f64) -> f64 {
-    let mut problem = tiny(pml().with("alpha_per_s", alpha));
+    growth_of_layers(nu, alpha, false)
+}
+
+/// The same, or with rollers left and right instead of the layer.
+fn growth_of_layers(nu: f64, alpha: f64, rollers: bool) -> f64 {
+    let on = |problem: Problem<2>| match rollers {
+        true => between_rollers(problem),
+        false => problem,
+    };
+    let mut problem = on(tiny(pml().with("alpha_per_s", alpha)));
     problem.material.poissons_ratio = nu;
     let (model, free, _) = probed(&problem);
     let own = model.regions.last().unwrap().range.clone();
-    let geometry = [[0.0, 60.0], [-40.0, 0.0]];
+    let x = if rollers {
+        [f64::MIN, f64::MAX]
+    } else {
+        [0.0, 60.0]
+    };
+    let geometry = [x, [-40.0, 0.0]];
     let layer = (60.0, REFLECTION, 20.0);
     let material = &problem.material;
     let twin = Twin::new(
@@ -64,7 +79,7 @@ fn growth_of_the_true_layer(nu: f64, alpha: f64) -> f64 {
     );
     let (n, q) = (free.len(), own.len());
     // without memory: the same mesh with plain elastic stress, and the twin's at phi = 0
-    let mut plain = tiny(SideMethod::new("extended"));
+    let mut plain = on(tiny(SideMethod::new("extended")));
     plain.material = *material;
     let (_, plain_free, k) = probed(&plain);
     assert_eq!(plain_free, free);
@@ -133,7 +148,13 @@ fn growth_of_the_true_layer(nu: f64, alpha: f64) -> f64 {
             }
         }
     }
-    largest_real_part(a) / (problem.material.p_speed() / 20.0)
+    largest_real_part(&a) / (problem.material.p_speed() / 20.0)
+}
+
+/// With rollers left and right.
+fn between_rollers(mut problem: Problem<2>) -> Problem<2> {
+    problem.sides[0] = ["roller", "roller"].map(SideMethod::new);
+    problem
 }
 
 #[test]
@@ -153,4 +174,81 @@ fn the_true_layers_spectrum_does_not_grow() {
         println!("nu = {nu}, alpha = {alpha}/s: largest real part {growth:.1e} c_p/h");
         assert!(growth < 1e-10);
     }
+}
+
+/// The same by the steps of the solver itself, as `stability` prints it.
+fn growth_by_steps(layer: SideMethod, nu: f64) -> f64 {
+    growth_of_steps(tiny(layer), nu)
+}
+
+fn growth_of_steps(mut problem: Problem<2>, nu: f64) -> f64 {
+    problem.material.poissons_ratio = nu;
+    problem.dt = 20.0 / problem.material.p_speed();
+    (problem.solver, problem.rel_tol) = (SolverKind::Direct, 1e-13);
+    let start = std::time::Instant::now();
+    let found = spectrum(&problem).unwrap();
+    println!(
+        "nu = {nu}: {:.3e} c_p/h by steps, {} unknowns, {:.1} s",
+        found.growth,
+        found.unknowns,
+        start.elapsed().as_secs_f64()
+    );
+    found.growth
+}
+
+#[test]
+fn the_steps_of_the_solver_have_the_spectrum_of_the_equations() {
+    // grows, and by what the layer's equations say on the same mesh, point by point
+    let (steps, equations) = (
+        growth_by_steps(pml(), 0.499),
+        growth_of_the_true_layer(0.499, 0.0),
+    );
+    assert!(
+        (steps / equations - 1.0).abs() < 1e-6,
+        "{steps} {equations}"
+    );
+    let shifted = growth_by_steps(pml().with("alpha_per_s", 10.0), 0.25);
+    let equations = growth_of_the_true_layer(0.25, 10.0);
+    assert!(
+        (shifted / equations - 1.0).abs() < 1e-6,
+        "{shifted} {equations}"
+    );
+    // where nothing grows, rounding is what is left, of which doubled modes at rest have the root
+    let damping = SideMethod::new("damping-layer").with("sigma_max_per_s", 10.0);
+    for (layer, nu) in [(pml(), 0.25), (pml(), 0.49), (damping, 0.25)] {
+        assert!(growth_by_steps(layer, nu) < 1e-6);
+    }
+    // the published equations are ill-posed beyond 0.396
+    let stretched = || SideMethod::new("pml-stretched").with("rayleigh_per_s", 0.0);
+    assert!(growth_by_steps(stretched(), 0.49) > 1e-2);
+}
+
+#[test]
+fn one_layer_between_rollers_grows_a_little_in_material_that_does_not_bulge() {
+    for nu in [0.0, 0.25] {
+        let equations = growth_of_layers(nu, 0.0, true);
+        let steps = growth_of_steps(between_rollers(tiny(pml())), nu);
+        println!("nu = {nu}: {equations:.3e} by the equations, {steps:.3e} by steps");
+        match nu {
+            0.0 => assert!(equations > 1e-3 && (steps / equations - 1.0).abs() < 1e-6),
+            _ => assert!(equations < 1e-10 && steps < 1e-6),
+        }
+    }
+}
+
+#[test]
+fn a_small_mesh_has_the_sides_of_its_scene() {
+    let large = anechoic_tests::half_space(
+        pml(),
+        anechoic_solver::problem::PointMode::Moving,
+        anechoic_solver::problem::Transfer::Affine,
+    );
+    let found = small(&large);
+    let sides = |problem: &Problem<2>| -> Vec<String> {
+        let sides = problem.sides.iter().flatten();
+        sides.map(|side| side.method.clone()).collect()
+    };
+    assert_eq!(sides(&found), sides(&large));
+    assert_eq!(found.sides[0][0].given_number("thickness_m"), Some(60.0));
+    assert!(spectrum(&found).unwrap().unknowns < 2000);
 }

@@ -40,7 +40,7 @@ fn growth(problem: &Problem<2>) -> f64 {
             a[(n + i, j)] = -k[(i, j)] / at(&lumped.mass, i);
         }
     }
-    largest_real_part(a)
+    largest_real_part(&a)
 }
 
 #[test]

@@ -200,7 +200,17 @@ fn what_theory_says_is_stable_is_stable_at_all_extremes() {
         let at = (&row.method, &row.place, &row.why);
         assert_eq!(row.verdict, Some(Verdict::Pass), "{at:?}");
     }
-    for label in ["dt = 0.001 h/c_p", "dt = 100 h/c_p", "nu=0", "nu=0.4999"] {
+    for label in [
+        "dt = 0.001 h/c_p",
+        "dt = 100 h/c_p",
+        "nu=0",
+        "nu=0.4999",
+        "aspect=0.05",
+        "aspect=20",
+        "frozen, gap=0.000000001",
+        "frozen, gap=0.499999999",
+        "moving, gap=0.000000001",
+    ] {
         for method in ["fixed", "dashpot", "pml"] {
             let ended = outcome(&finished, method, label);
             assert!(
@@ -212,6 +222,33 @@ fn what_theory_says_is_stable_is_stable_at_all_extremes() {
     let strong = outcome(&finished, "pml", "pml.reflection=0.000000000001");
     assert!(matches!(strong, Outcome::Stable(_)), "{strong:?}");
     assert_eq!(finished.exit_code(), exit::PASS);
+    for step in &map(&finished).largest_steps {
+        assert_eq!(
+            (&step.value, step.tried),
+            (&Ok(100.0), 100.0),
+            "{}",
+            step.method
+        );
+    }
+    let spectra = &map(&finished).spectra;
+    let of = |label: &str, method: &str| {
+        let point = spectra.iter().find(|point| point.label == label).unwrap();
+        let found = point.entries.iter().find(|(name, _)| name == method);
+        found.map(|(_, opinion)| opinion.clone().unwrap())
+    };
+    assert_eq!(of("nu=0.25", "dashpot"), None, "it has no layer");
+    for (label, grows) in [("nu=0.25", false), ("nu=0.49", false), ("nu=0.499", true)] {
+        let opinion = of(label, "pml").unwrap();
+        println!("{label}: {opinion:?}");
+        assert_eq!(
+            opinion.growth > 1e-6 && !opinion.is_rounding(),
+            grows,
+            "{label}"
+        );
+    }
+    let rows = finished.rows.iter();
+    let opinions = rows.filter(|row| row.metric == "largest_real_part" && row.method == "pml");
+    assert_eq!(opinions.count(), 14);
 }
 
 /// What is known to grow is found: the true layer forced under flip, whose points filter what its

@@ -98,18 +98,18 @@ fn refined(method: &str, wavelet: &str) -> Finished {
         .set("receivers.A.x_m=2")
         .set("receivers.B.x_m=2");
     let over = Over::parse("grid.h_m=4,2,1,0.5").expect("levels");
-    let finished = converge(&options, &over).unwrap_or_else(|error| panic!("{error}"));
-    let Some(Upshot::Convergence(convergence)) = &finished.study.upshot else {
+    let finished = converge(&options, &[over], false).unwrap_or_else(|error| panic!("{error}"));
+    let Some(Upshot::Convergence(refinement)) = &finished.study.upshot else {
         panic!("it was refined");
     };
-    let levels = &convergence.levels;
+    let levels = &refinement.studies[0].levels;
     let coarsest = levels[0].size;
     assert!(
         (coarsest - 50.0 / 13.0).abs() < 1e-12,
         "4 m do not divide 50 m"
     );
     for (run, level) in finished.study.runs.iter().zip(levels) {
-        let dt = run.prepared.scene.problem().dt;
+        let dt = run.prepared.scene.posed().dt();
         assert!((dt - 0.005 * level.size).abs() < 1e-12);
     }
     print_claims(&finished.rows);
@@ -144,7 +144,7 @@ fn a_study_of_orders_is_made_again_from_records() {
     let out = folder();
     let over = Over::parse("grid.h_m=2,1").expect("levels");
     let options = narrow_column(out.path()).method("dashpot");
-    let finished = converge(&options, &over).unwrap_or_else(|error| panic!("{error}"));
+    let finished = converge(&options, &[over], false).unwrap_or_else(|error| panic!("{error}"));
     // Two levels are too few for the claim, and enough for a number; between them it is the same.
     let order = |place: &str| value(&finished.rows, "dashpot", "order", place);
     assert!((order("A:rel_l2") - order("A:rel_l2@grid.h_m=2..1")).abs() < 1e-12);
@@ -183,12 +183,9 @@ fn the_printed_poissons_ratio_makes_a_slow_column() {
             row.why
         );
     }
-    let speed = finished.study.runs[0]
-        .prepared
-        .scene
-        .problem()
-        .material
-        .p_speed();
+    let posed = finished.study.runs[0].prepared.scene.posed();
+    let plane = posed.plane().expect("a plane scene");
+    let speed = plane.material.p_speed();
     assert!((speed - 17.6).abs() < 0.05, "{speed}");
 }
 

@@ -301,7 +301,7 @@ fn what_is_not_claimed_says_why() {
 fn errors_fall_with_the_second_order() {
     let out = folder();
     let over = Over::parse("grid.h_m=20,10").expect("levels");
-    let finished = converge(&gate(&out), &over);
+    let finished = converge(&gate(&out), &[over], false);
     let finished = finished.unwrap_or_else(|error| panic!("{error}"));
     all_pass(&finished, 3);
     let orders: Vec<&Row> = claims(&finished.rows).collect();

@@ -16,10 +16,10 @@ use anechoic::commands::{
     Finished, Options, compare, plan_ablation, plan_compare, plan_run, reference,
 };
 use anechoic::error::exit;
+use anechoic::posed::Posed;
 use anechoic::prepare::{Prepared, Request, Target};
 use anechoic_reference::claim::Evidence;
 use anechoic_reports::row::{Row, Verdict};
-use anechoic_solver::problem::Problem;
 use anechoic_tests::solved;
 
 const CASE: &str = "point-source";
@@ -35,7 +35,7 @@ fn gate(method: &str, sets: &[&str]) -> Prepared {
     target.prepare(Some(method)).expect("the scene is well put")
 }
 
-fn extended() -> Problem<2> {
+fn extended() -> Posed {
     gate("fixed", &[])
         .scene
         .extended()
@@ -137,7 +137,7 @@ fn a_reference_does_not_serve_after_its_time() {
 #[test]
 fn nothing_comes_back_before_the_certificate_says() {
     // The standard run is an extended domain of 1000 m: equal to the reference until it is not.
-    let problem = gate("fixed", &[]).scene.problem();
+    let problem = gate("fixed", &[]).scene.posed().plane().unwrap();
     let until = serves_until(&problem).unwrap();
     let mut short = problem.clone();
     short.end_time = until + 1.5;

@@ -35,7 +35,8 @@ pub const CONVERGE_EXAMPLES: &str = "\
 Examples:
   anechoic converge lamb --over grid.h_m=20,10,5
   anechoic converge compression-1d --over grid.h_m=4,2,1,0.5 --set source.wavelet=sine-squared
-  anechoic converge compression-1d --over pml.thickness_m=40,20,10 --method pml";
+  anechoic converge lamb --over grid.h_m=20,10,5 --over time.dt_s=0.02,0.01,0.005 --budget
+  anechoic converge lamb --method pml --budget        shares of space, time, boundary, reference";
 
 /// Of `sweep`.
 pub const SWEEP_EXAMPLES: &str = "\

@@ -57,9 +57,14 @@ impl CompareArgs {
 /// Which scene, which method, which levels.
 #[derive(Debug, Args)]
 pub struct ConvergeArgs {
-    /// The number to refine and its values: a field, or a method's parameter.
+    /// What is refined and its values: grid.h_m, time.dt_s or points.per_cell; repeated, one after the
+    /// other.
     #[arg(long, value_name = "FIELD=VALUE,VALUE,...")]
-    pub over: String,
+    pub over: Vec<String>,
+    /// What space, time, points, boundary and reference contribute to the errors of the scene as it
+    /// stands: runs that differ from it in one thing.
+    #[arg(long)]
+    pub budget: bool,
     /// Boundary method, as a preset over sides [default: the scene's sides].
     #[arg(long)]
     method: Option<String>,

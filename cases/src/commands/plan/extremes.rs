@@ -4,11 +4,11 @@ use super::Plan;
 use super::points::Points;
 use crate::commands::Options;
 use crate::error::CaseError;
+use crate::judge::{RATIO_AXIS, STEP_AXIS};
 use crate::prepare::{Prepared, Target};
 use crate::study::Kind;
 use crate::sweep::{Grid, Part, Setting};
 use anechoic_solver::boundary::{MethodInfo, Rungs, find};
-use anechoic_solver::problem::Drive;
 
 /// Steps over the time that the fastest wave takes through a cell.
 const STEPS: [f64; 7] = [0.001, 0.01, 0.1, 1.0, 5.0, 20.0, 100.0];
@@ -65,6 +65,12 @@ const BASES: [(&str, &[&str]); 5] = [
 
 const PER_CELL: [usize; 4] = [1, 4, 9, 16];
 
+/// Edges of cells along x over those along y.
+const ASPECTS: [f64; 5] = [0.05, 0.2, 2.0, 5.0, 20.0];
+
+/// Distances of points from cells' faces, over cells' edges: hardly inside, and hardly apart.
+const FACE_GAPS: [f64; 3] = [1e-9, 1e-3, 0.499_999_999];
+
 /// Steps of the long run: under the gate's profile, and else.
 const LONG: [f64; 2] = [2000.0, 100_000.0];
 
@@ -85,15 +91,15 @@ pub(super) fn stability(options: &Options) -> Result<Plan, CaseError> {
         let about = Part {
             name: title.to_owned(),
             title: title.to_owned(),
+            axis: title.to_owned(),
             ..Part::default()
         };
         let part = points.part(about, &options.request, methods, settings)?;
         parts.push(part);
         Ok::<(), CaseError>(())
     };
-    add("time step over h/c_p", &methods, steps(&base))?;
-    let material = RATIOS.map(|nu| named(format!("nu={nu}"), vec![format!("material.nu={nu}")]));
-    add("Poisson's ratio", &methods, material.to_vec())?;
+    add(STEP_AXIS, &methods, steps(&base))?;
+    add(RATIO_AXIS, &methods, numbers("nu", "material.nu", &RATIOS))?;
     let words = |all: &[(&str, &[&str])]| -> Vec<Setting> {
         let own = |sets: &[&str]| sets.iter().map(|set| (*set).to_owned()).collect();
         all.iter()
@@ -109,6 +115,13 @@ pub(super) fn stability(options: &Options) -> Result<Plan, CaseError> {
     let per_cell =
         PER_CELL.map(|n| named(format!("{n} a cell"), vec![format!("points.per_cell={n}")]));
     add("points in a cell", &methods, per_cell.to_vec())?;
+    let aspects = numbers("aspect", "grid.aspect", &ASPECTS);
+    add("edges of a cell along x over y", &methods, aspects)?;
+    add(
+        "points near cells' faces, over edges",
+        &methods,
+        face_gaps(),
+    )?;
     for method in &methods {
         let Ok(scene) = target.prepare(Some(method)) else {
             continue;
@@ -147,6 +160,30 @@ fn usual(target: &Target) -> Vec<String> {
     names
 }
 
+/// A number at its extremes.
+fn numbers(name: &str, field: &str, values: &[f64]) -> Vec<Setting> {
+    let setting = |value: &f64| Setting {
+        label: format!("{name}={value}"),
+        value: Some(*value),
+        sets: vec![format!("{field}={value}")],
+    };
+    values.iter().map(setting).collect()
+}
+
+/// Points at rest near faces, and points that go to and fro over them.
+fn face_gaps() -> Vec<Setting> {
+    let gap = |mode: &str, gap: f64, sets: &[&str]| {
+        let mut all = vec![format!("points.face_gap={gap}")];
+        all.extend(sets.iter().map(|set| (*set).to_owned()));
+        named(format!("{mode}, gap={gap}"), all)
+    };
+    let [frozen, moving] = [TRANSFERS[0].1, TRANSFERS[2].1];
+    let resting = FACE_GAPS.iter().map(|value| gap("frozen", *value, frozen));
+    resting
+        .chain([gap("moving", FACE_GAPS[0], moving)])
+        .collect()
+}
+
 fn named(label: String, sets: Vec<String>) -> Setting {
     Setting {
         label,
@@ -162,11 +199,8 @@ fn has(scene: &Prepared, field: &str) -> bool {
 
 /// A run of `count` steps of `dt` (s), with a pulse that fits.
 fn timed(scene: &Prepared, label: String, dt: f64, count: f64) -> Setting {
-    let problem = scene.scene.problem();
     let end = count * dt;
-    let pulse = problem.drives.first().map(|drive| match drive {
-        Drive::SideVelocity { pulse, .. } | Drive::PointForce { pulse, .. } => *pulse,
-    });
+    let pulse = scene.scene.posed().pulses().first().copied();
     let mut sets = vec![format!("time.dt_s={dt}"), format!("time.end_s={end}")];
     if let Some(pulse) = pulse {
         // No shorter than some steps, and over in the first quarter of the run.
@@ -185,8 +219,8 @@ fn timed(scene: &Prepared, label: String, dt: f64, count: f64) -> Setting {
 
 /// Steps from a thousandth to a hundred times the time of the fastest wave through a cell.
 fn steps(scene: &Prepared) -> Vec<Setting> {
-    let problem = scene.scene.problem();
-    let cell = scene.scene.cell_m() / problem.material.p_speed();
+    let problem = scene.scene.posed();
+    let cell = scene.scene.cell_m() / problem.material().p_speed();
     let most = if scene.profile == "gate" {
         MOST[0]
     } else {
@@ -194,8 +228,12 @@ fn steps(scene: &Prepared) -> Vec<Setting> {
     };
     let of = |factor: &f64| {
         let dt = factor * cell;
-        let count = (problem.end_time / dt).clamp(FEWEST, most).round();
-        timed(scene, format!("dt = {factor} h/c_p"), dt, count)
+        let count = (problem.end_time() / dt).clamp(FEWEST, most).round();
+        let setting = timed(scene, format!("dt = {factor} h/c_p"), dt, count);
+        Setting {
+            value: Some(*factor),
+            ..setting
+        }
     };
     STEPS.iter().map(of).collect()
 }
@@ -205,7 +243,7 @@ fn long(scene: &Prepared, count: f64) -> Setting {
     let mut setting = timed(
         scene,
         format!("{count} steps"),
-        scene.scene.problem().dt,
+        scene.scene.posed().dt(),
         count,
     );
     // The pulse stays what it is.

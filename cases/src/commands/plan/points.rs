@@ -244,7 +244,7 @@ fn refused(error: &CaseError) -> Option<String> {
 fn standard(target: &Target, scene: &Prepared) -> Option<Prepared> {
     let hash = |scene: &Prepared| {
         let problem = scene.scene.extended()?;
-        Some(key::hash(&key::table(&problem)))
+        Some(key::hash_of(&problem))
     };
     let of_variants = format!("{}/", target.info.standard);
     let variants = target.info.ablation.iter().map(|variant| variant.name);

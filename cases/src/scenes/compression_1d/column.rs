@@ -140,7 +140,7 @@ fn series(
                 .map(|&t| column.velocity(|t| pulse.value(t), receiver.y_m, t))
                 .collect();
             let vy = vy.map_err(|error| error.to_string())?;
-            Ok((receiver.name.clone(), [vec![0.0; times.len()], vy]))
+            Ok((receiver.name.clone(), vec![vec![0.0; times.len()], vy]))
         })
         .collect::<Result<_, String>>()?;
     Ok(Reference {

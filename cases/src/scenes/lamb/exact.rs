@@ -44,8 +44,12 @@ impl Smoothness {
 }
 
 /// What the half-space does: it judges the method, and, as long as nothing can come back from an
-/// extended end, the solver.
-pub(super) fn references(scene: &Lamb, times: &[f64]) -> Result<Vec<Reference>, String> {
+/// extended end, the solver. Panels of the quadrature are `finer` times as long as usual.
+pub(super) fn references(
+    scene: &Lamb,
+    times: &[f64],
+    finer: f64,
+) -> Result<Vec<Reference>, String> {
     if scene.boundary.top.method != "free" {
         return Err(format!(
             "Lamb's half-space has boundary.top = free, here it is {}",
@@ -61,9 +65,9 @@ pub(super) fn references(scene: &Lamb, times: &[f64]) -> Result<Vec<Reference>, 
             .receivers
             .iter()
             .map(|receiver| {
-                let motion = motion(scene, receiver, times, panel(&scene.source.pulse()))
+                let motion = motion(scene, receiver, times, finer * panel(&scene.source.pulse()))
                     .map_err(|reason| format!("receiver {}: {reason}", receiver.name))?;
-                Ok((receiver.name.clone(), motion))
+                Ok((receiver.name.clone(), motion.to_vec()))
             })
             .collect::<Result<_, String>>()?,
         // P, S and Rayleigh waves overlap.

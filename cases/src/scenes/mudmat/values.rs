@@ -4,12 +4,12 @@ use crate::scene::Overlay;
 
 /// The paper's values; gravity is (1 - 1000/1500) 9.81 m/s2.
 pub(super) const PAPER: &str = r#"
-basis = "gimp"
+basis = "bspline"
 body = { width_m = 20.0, height_m = 10.0 }
 grid = { h_m = 0.025 }
 time = { scheme = "explicit", courant = 0.4, end_s = 1.0 }
 points = { mode = "moving", transfer = "affine", per_cell = 16 }
-flow = { update = "usl", pic_share = 0.0 }
+flow = { update = "usl", pic_share = 0.0, volume = "cell" }
 material = { E_Pa = 150e3, nu = 0.49, rho_kg_m3 = 1500.0, s_u0_Pa = 500.0, viscosity = 0.65, index = 0.4, reference_rate_1_s = 0.06 }
 slide = { velocity_m_s = 6.0, gravity_m_s2 = 3.27 }
 mudmat = { exposed_m = 1.0, length_m = 10.0, friction = 0.0, reach = 0.5 }

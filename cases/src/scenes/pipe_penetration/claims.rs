@@ -4,7 +4,7 @@
 //! over a window of its depth: the force of a single step is that of single nodes.
 
 use super::PipePenetration;
-use crate::scene::{OwnNumber, SceneClaim};
+use crate::scene::{Curve, OwnNumber, OwnPicture, SceneClaim};
 use crate::spec::MaterialSpec;
 use anechoic_reference::analytic::elastic::Elastic;
 use anechoic_reference::analytic::impact::Impact;
@@ -141,6 +141,43 @@ fn echo_depth(scene: &PipePenetration) -> Result<f64, String> {
     let soil = Elastic::new(youngs_modulus, nu, rho_kg_m3).map_err(|error| error.to_string())?;
     let impact = Impact::new(&soil, scene.pipe.velocity_m_s).map_err(|error| error.to_string())?;
     Ok(impact.way_to_echo(scene.body.height_m) / scene.pipe.diameter_m)
+}
+
+/// Resistance against depth.
+pub(super) fn pictures(scene: &PipePenetration) -> Vec<OwnPicture> {
+    let depths: Vec<f64> = (1..=50).map(|k| 0.01 * f64::from(k)).collect();
+    let depths: Vec<f64> = depths
+        .into_iter()
+        .filter(|d| *d <= scene.pipe.depth)
+        .collect();
+    let factors = depths.iter().map(|d| bearing_factor(Interface::Smooth, *d));
+    let truth = factors.collect::<Result<Vec<f64>, _>>().ok();
+    let echo = echo_depth(scene).ok().filter(|_| !is_slow(scene));
+    vec![OwnPicture {
+        name: "resistance",
+        title: "Resistance of the soil against the pipe",
+        caption: "Force on the whole pipe over D s_u, as the mean over 0.01 D of its way. Grey: slip line, without inertia. Marked: when the echo of the base is due.",
+        x: ("depth w/D", ""),
+        y: ("F/(D s_u)", ""),
+        truth: truth.map(|y| ("slip line", Curve { x: depths, y })),
+        marks: echo
+            .map(|d| (d, "echo of the base".to_owned()))
+            .into_iter()
+            .collect(),
+    }]
+}
+
+/// The resistance of a run as the mean over windows that follow each other.
+pub(super) fn curve(scene: &PipePenetration, run: &Record) -> Option<Curve> {
+    let own = Resistance::of(scene, run)?;
+    let windows = (scene.pipe.depth / WINDOW) as usize;
+    let at = |k: usize| (k as f64 + 0.5) * WINDOW;
+    let points = (0..windows).filter_map(|k| {
+        let mean = mean_around(&own.depth, &own.force, at(k), 0.5 * WINDOW);
+        Some((at(k), mean.ok()?))
+    });
+    let (x, y) = points.unzip();
+    Some(Curve { x, y })
 }
 
 /// The claims, for the scene as run.

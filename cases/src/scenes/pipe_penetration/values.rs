@@ -4,12 +4,12 @@ use crate::scene::Overlay;
 
 /// The paper's values.
 pub(super) const PAPER: &str = r#"
-basis = "gimp"
+basis = "bspline"
 body = { width_m = 2.5, height_m = 2.5 }
 grid = { h_m = 0.01 }
 time = { scheme = "explicit", courant = 0.4 }
 points = { mode = "moving", transfer = "affine", per_cell = 16 }
-flow = { update = "usl", pic_share = 0.0 }
+flow = { update = "usl", pic_share = 0.0, volume = "cell" }
 material = { E_Pa = 1.25e6, nu = 0.49, rho_kg_m3 = 650.0, s_u_Pa = 2500.0 }
 pipe = { diameter_m = 0.8, velocity_m_s = 5.0, depth = 0.5, friction = 0.0, reach = 0.5 }
 receivers = [{ name = "R1", x_m = 0.0, y_m = -1.2 }, { name = "R2", x_m = 1.2, y_m = -1.2 }]
@@ -62,10 +62,17 @@ pub(super) const METHODS: &[Overlay] = &[
     ),
     Overlay::new(
         "damping-layer",
-        "S21's layer of 1 m beyond the soil, alpha = 0.005 a step",
+        "1 m of viscous layer beyond the soil, growing to 227/s: S21's alpha = 0.005 at its own step",
+        "boundary.right = { method = 'damping-layer', thickness_m = 1.0, sigma_max_per_s = 227.0, power = 1.0, end = 'roller' }
+        boundary.bottom = { method = 'damping-layer', thickness_m = 1.0, sigma_max_per_s = 227.0, power = 1.0, end = 'roller' }",
+    ),
+    Overlay::new(
+        "damping-layer-printed",
+        "the same as printed, alpha = 0.005 a step: as strong as steps are short",
         "boundary.right = { method = 'damping-layer', thickness_m = 1.0, form = 'printed', alpha_per_m = 0.005, end = 'roller' }
         boundary.bottom = { method = 'damping-layer', thickness_m = 1.0, form = 'printed', alpha_per_m = 0.005, end = 'roller' }",
-    ),
+    )
+    .on_request(),
     Overlay::new(
         "pml",
         "perfectly matched layer of 0.5 m",
@@ -74,8 +81,8 @@ pub(super) const METHODS: &[Overlay] = &[
     ),
     Overlay::new(
         "extended",
-        "the soil goes on so far that nothing comes back",
-        "boundary.right.method = 'extended'
-        boundary.bottom.method = 'extended'",
+        "the soil goes on so far, 7.75 m, that nothing comes back before w/D = 0.5",
+        "boundary.right = { method = 'extended', thickness_m = 5.25 }
+        boundary.bottom = { method = 'extended', thickness_m = 5.25 }",
     ),
 ];

@@ -41,6 +41,14 @@ fn asked_shift(method: &SideMethod) -> (Option<f64>, &str) {
     (given, method.choice(&METHOD, "static_load"))
 }
 
+/// Does a side ask for a shift at all?
+pub(super) fn asks_for_shift(method: &SideMethod) -> bool {
+    match asked_shift(method) {
+        (Some(alpha), _) => alpha > 0.0,
+        (None, word) => word == "follow",
+    }
+}
+
 /// Refuses a layer whose sides do not ask for the same shift.
 pub(super) fn one_shift<const D: usize>(
     problem: &Problem<D>,
@@ -150,6 +158,11 @@ impl<const D: usize> ShiftedInertia<D> {
             }
         }
         self.lumped = lumped;
+    }
+
+    /// theta_1 and theta_2.
+    pub fn memory(&mut self) -> impl Iterator<Item = &mut [f64]> {
+        self.theta.iter_mut().map(|theta| theta.as_flattened_mut())
     }
 
     /// Sets the memories of the end of the trial step.

@@ -25,7 +25,7 @@ pub struct PlaneStep {
 impl PlaneStep {
     /// Of the velocity gradient `l` (1/s) over `dt` (s). Not finite where the step turns the material
     /// inside out so far that 2 I + A is singular.
-    #[inline]
+    #[inline(always)]
     pub fn new(l: &Matrix<2>, dt: f64) -> Self {
         let [[a, b], [c, d]] = [[dt * l[0][0], dt * l[0][1]], [dt * l[1][0], dt * l[1][1]]];
         let delta = a * d - b * c;
@@ -43,14 +43,14 @@ impl PlaneStep {
     }
 
     /// Engineering shear strain: the difference of the principal strains in the plane.
-    #[inline]
+    #[inline(always)]
     pub fn shear(&self) -> f64 {
         let [xx, yy, xy] = self.strain;
         ((xx - yy) * (xx - yy) + 4.0 * xy * xy).sqrt()
     }
 
     /// The stress (Pa; xx, yy, xy, zz) that an elastic step leaves.
-    #[inline]
+    #[inline(always)]
     pub fn trial(&self, law: &Hypoelastic, stress: &[f64; 4]) -> [f64; 4] {
         let ([cos, sin], [e_xx, e_yy, e_xy]) = (self.turn, self.strain);
         let [xx, yy, xy, zz] = *stress;

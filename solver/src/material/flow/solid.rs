@@ -25,7 +25,7 @@ pub struct SolidStep {
 impl SolidStep {
     /// Of the velocity gradient `l` (1/s) over `dt` (s). Not finite where the step turns the material
     /// inside out so far that 2 I + A is singular.
-    #[inline]
+    #[inline(always)]
     pub fn new(l: &Matrix<3>, dt: f64) -> Self {
         let unit = identity::<3>();
         let doubled = l.map(|row| row.map(|rate| 2.0 * dt * rate));
@@ -41,7 +41,7 @@ impl SolidStep {
     }
 
     /// The stress (Pa; xx, yy, zz, xy, yz, zx) that an elastic step leaves.
-    #[inline]
+    #[inline(always)]
     pub fn trial(&self, law: &Hypoelastic, stress: &[f64; 6]) -> [f64; 6] {
         let mut half_way = self.turned(&tensor(stress));
         half_way = add_scaled(&half_way, 2.0 * law.shear, &self.strain);
@@ -50,20 +50,20 @@ impl SolidStep {
     }
 
     /// Half a step on.
-    #[inline]
+    #[inline(always)]
     fn turned(&self, m: &Matrix<3>) -> Matrix<3> {
         mul_transposed(&mul(&self.half_turn, m), &self.half_turn)
     }
 }
 
 /// The stress tensor of its components.
-#[inline]
+#[inline(always)]
 pub fn tensor([xx, yy, zz, xy, yz, zx]: &[f64; 6]) -> Matrix<3> {
     [[*xx, *xy, *zx], [*xy, *yy, *yz], [*zx, *yz, *zz]]
 }
 
 /// The components of a stress tensor.
-#[inline]
+#[inline(always)]
 pub fn components(m: &Matrix<3>) -> [f64; 6] {
     [m[0][0], m[1][1], m[2][2], m[0][1], m[1][2], m[2][0]]
 }
