@@ -33,41 +33,54 @@ pub enum FieldError {
     Write(String),
 }
 
-/// The displacement on the nodes of a snapshot's plane lattice: quadrilaterals with the vector
-/// `displacement` (m) at their corners, in single precision. Values that are not finite stay so.
+/// The displacement on the nodes of a snapshot's lattice: quadrilaterals in the plane, hexahedra in space,
+/// with the vector `displacement` (m) at their corners, in single precision. Values that are not finite
+/// stay so.
 pub fn vtu(snapshot: &Snapshot) -> Result<Vec<u8>, FieldError> {
     let [nx, ny, nz] = snapshot.counts;
-    if nx < 2 || ny < 2 || nz != 1 {
+    if nx < 2 || ny < 2 || nz < 1 {
         return Err(FieldError::Shape(snapshot.counts));
     }
+    let solid = nz > 1;
     let (x, y) = (component(snapshot, "ux")?, component(snapshot, "uy")?);
+    let z = solid.then(|| component(snapshot, "uz")).transpose()?;
     let place =
         |axis: usize, i: usize| (snapshot.origin[axis] + i as f64 * snapshot.spacing[axis]) as f32;
-    let nodes = || (0..ny).flat_map(|iy| (0..nx).map(move |ix| (ix, iy)));
+    let nodes = || (0..nx * ny * nz).map(|n| [n % nx, n / nx % ny, n / nx / ny]);
     let points: Vec<f32> = nodes()
-        .flat_map(|(ix, iy)| [place(0, ix), place(1, iy), snapshot.origin[2] as f32])
+        .flat_map(|at| [0, 1, 2].map(|axis| place(axis, at[axis])))
         .collect();
-    let vectors = x.values.iter().zip(&y.values);
-    let vectors: Vec<f32> = vectors
-        .flat_map(|(x, y)| [*x as f32, *y as f32, 0.0])
-        .collect();
-    let corners: Vec<u64> = nodes()
-        .filter(|(ix, iy)| ix + 1 < nx && iy + 1 < ny)
-        .flat_map(|(ix, iy)| {
-            let first = (iy * nx + ix) as u64;
-            let above = first + nx as u64;
-            [first, first + 1, above + 1, above]
+    let vectors: Vec<f32> = (0..nx * ny * nz)
+        .flat_map(|n| {
+            let z = z.map_or(0.0, |z| z.values[n]);
+            [x.values[n], y.values[n], z].map(|u| u as f32)
         })
         .collect();
-    let count = (nx - 1) * (ny - 1);
+    let corners: Vec<u64> = nodes()
+        .filter(|[ix, iy, iz]| ix + 1 < nx && iy + 1 < ny && (iz + 1 < nz || !solid))
+        .flat_map(|[ix, iy, iz]| {
+            let quad = |iz: usize| {
+                let first = ((iz * ny + iy) * nx + ix) as u64;
+                let above = first + nx as u64;
+                [first, first + 1, above + 1, above]
+            };
+            let behind = solid.then(|| quad(iz + 1));
+            quad(iz).into_iter().chain(behind.into_iter().flatten())
+        })
+        .collect();
+    let (kind, ends) = match solid {
+        true => (CellType::Hexahedron, 8),
+        false => (CellType::Quad, 4),
+    };
+    let count = corners.len() / ends;
     let piece = UnstructuredGridPiece {
         points: points.into(),
         cells: Cells {
             cell_verts: VertexNumbers::XML {
                 connectivity: corners,
-                offsets: (1..=count as u64).map(|n| 4 * n).collect(),
+                offsets: (1..=count as u64).map(|n| ends as u64 * n).collect(),
             },
-            types: vec![CellType::Quad; count],
+            types: vec![kind; count],
         },
         data: Attributes {
             point: vec![Attribute::vectors("displacement").with_data(vectors)],

@@ -66,6 +66,37 @@ fn a_field_comes_back_node_by_node() {
 }
 
 #[test]
+fn a_field_in_space_is_made_of_hexahedra() {
+    let mut solid = snapshot();
+    (solid.counts, solid.spacing[2]) = ([3, 2, 2], 5.0);
+    for (column, factor) in solid.columns.iter_mut().zip([1.0, -0.1]) {
+        column.values = (0..12).map(|i| factor * f64::from(i)).collect();
+    }
+    let missing = FieldError::Component {
+        name: "uz",
+        samples: 12,
+    };
+    assert_eq!(vtu(&solid), Err(missing));
+    let mut depth = solid.columns[0].clone();
+    (depth.name, depth.values[7]) = ("uz".to_owned(), 70.0);
+    solid.columns.push(depth);
+    let piece = read_back(&vtu(&solid).expect("written"));
+    let points: Vec<f32> = piece.points.into_vec().expect("single precision");
+    assert_eq!(points[..3], [100.0, -20.0, 0.0]);
+    assert_eq!(points[33..], [120.0, 0.0, 5.0]);
+    let [Attribute::DataArray(vector)] = piece.data.point.as_slice() else {
+        panic!("not one array at the nodes");
+    };
+    let values: Vec<f32> = vector.data.clone().cast_into().expect("numbers");
+    assert_eq!(values[21..24], [7.0, (-0.1 * 7.0_f64) as f32, 70.0]);
+    assert_eq!(piece.cells.types, [CellType::Hexahedron; 2]);
+    // the quadrilateral in front of that behind, both counterclockwise
+    let (corners, ends) = piece.cells.cell_verts.into_xml();
+    assert_eq!(corners[..8], [0, 1, 4, 3, 6, 7, 10, 9]);
+    assert_eq!(ends, [8, 16]);
+}
+
+#[test]
 fn the_list_names_times_and_files() {
     let list = pvd([(0.5, "fields/000.vtu"), (1.25, "fields/001.vtu")]);
     let lines: Vec<&str> = list.lines().map(str::trim).collect();

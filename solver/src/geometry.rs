@@ -79,13 +79,7 @@ impl<const D: usize> Geometry<D> {
     pub(crate) fn owner(&self, target: &Aabb<D>, centre: &Vector<D>) -> Owner {
         let mut owner = Owner::Target;
         for a in &self.assigned {
-            let axis = a.side.axis;
-            let beyond = if a.side.upper {
-                centre[axis] > target.upper[axis]
-            } else {
-                centre[axis] < target.lower[axis]
-            };
-            if !beyond {
+            if !is_beyond(a.side, target, centre) {
                 continue;
             }
             owner = match (owner, a.layout.layer) {
@@ -98,6 +92,12 @@ impl<const D: usize> Geometry<D> {
             };
         }
         owner
+    }
+
+    /// How many sides have layers of their own that hold this place.
+    pub(crate) fn layers_at(&self, target: &Aabb<D>, centre: &Vector<D>) -> usize {
+        let own = self.assigned.iter().filter(|a| a.layout.layer.is_some());
+        own.filter(|a| is_beyond(a.side, target, centre)).count()
     }
 
     /// Lower corner of a cell of the material (m), counted with the first axis fastest.
@@ -119,6 +119,15 @@ impl<const D: usize> Geometry<D> {
     /// Cells of all material along each axis.
     pub(crate) fn material_cells_along(&self) -> [usize; D] {
         std::array::from_fn(|a| cells_along(&self.material_box, a, self.grid.h[a]))
+    }
+}
+
+/// Does a place lie beyond a side of the body?
+fn is_beyond<const D: usize>(side: Side, target: &Aabb<D>, place: &Vector<D>) -> bool {
+    if side.upper {
+        place[side.axis] > target.upper[side.axis]
+    } else {
+        place[side.axis] < target.lower[side.axis]
     }
 }
 

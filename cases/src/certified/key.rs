@@ -127,7 +127,7 @@ fn of_drive<const D: usize>(drive: &Drive<D>) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certified::causality::with_buffers;
+    use crate::certified::causality::buffered;
     use crate::scene::Scene;
     use crate::scenes::point_source::PointSource;
 
@@ -168,6 +168,6 @@ mod tests {
     #[test]
     fn the_buffer_is_not_part_of_it() {
         let problem = PointSource::default().extended().unwrap();
-        assert_eq!(table(&problem), table(&with_buffers(&problem, 1.2)));
+        assert_eq!(table(&problem), table(&buffered(&problem, 1.2)));
     }
 }

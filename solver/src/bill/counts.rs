@@ -12,6 +12,8 @@ pub(super) struct Counts {
     pub(super) target: usize,
     /// Method, how its points behave, their number.
     layers: Vec<(&'static str, LayerPoints, usize)>,
+    /// Points in the layers of several sides.
+    pub(super) overlap: usize,
 }
 
 impl Counts {
@@ -21,10 +23,15 @@ impl Counts {
             bulk: 0,
             target: 0,
             layers: Vec::new(),
+            overlap: 0,
         };
         let along = geometry.material_cells_along();
         for cell in 0..along.iter().product() {
-            match geometry.owner(&problem.target, &geometry.cell_centre(cell)) {
+            let centre = geometry.cell_centre(cell);
+            if geometry.layers_at(&problem.target, &centre) > 1 {
+                counts.overlap += problem.points_per_cell;
+            }
+            match geometry.owner(&problem.target, &centre) {
                 Owner::Target => counts.target += problem.points_per_cell,
                 Owner::Outside => counts.bulk += problem.points_per_cell,
                 Owner::Layer(name, kind) => {

@@ -322,9 +322,21 @@ impl<const D: usize> Clerk<'_, D> {
             });
             let names: Vec<String> = names.collect();
             let upkeep = (info.upkeep)(&first.method, self.problem.transfer);
-            Some(self.side(info.name, &names.join(", "), &upkeep))
+            let overlap = self.overlap(info.name, &upkeep);
+            let own = self.side(info.name, &names.join(", "), &upkeep);
+            Some(std::iter::once(own).chain(overlap))
         };
-        boundary::METHODS.iter().filter_map(of).collect()
+        boundary::METHODS.iter().filter_map(of).flatten().collect()
+    }
+
+    /// What layers keep besides where they meet.
+    fn overlap(&self, name: &str, upkeep: &Upkeep) -> Option<Item> {
+        let asked = D == 3 && upkeep.overlap_matrices > 0 && self.counts.layer(name) > 0;
+        asked.then(|| Item {
+            points: self.counts.overlap,
+            bytes_per_point: upkeep.overlap_matrices * Self::MATRIX,
+            ..self.item(&format!("{name}: edges and corners"), "second memory")
+        })
     }
 
     fn side(&self, name: &str, sides: &str, upkeep: &Upkeep) -> Item {

@@ -156,6 +156,8 @@ pub struct Upkeep {
     pub point_vectors: usize,
     /// Matrices on each of them.
     pub point_matrices: usize,
+    /// Matrices more on those of them that lie in the layers of several sides, in three dimensions.
+    pub overlap_matrices: usize,
     /// Vectors on each node.
     pub node_vectors: usize,
     /// Work on each point of its own layer in a step, over that of a small-strain force.

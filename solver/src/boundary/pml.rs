@@ -113,6 +113,7 @@ fn upkeep(_: &SideMethod, _: Transfer) -> Upkeep {
         holds: "damping, gradient, memory; springs and matrix of the nodes",
         point_vectors: 1,
         point_matrices: 2,
+        overlap_matrices: 1,
         node_vectors: 4,
         // and once more the gradient, when the step is accepted
         forces: 2.0,

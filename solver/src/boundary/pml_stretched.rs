@@ -159,6 +159,7 @@ fn upkeep(method: &SideMethod, transfer: Transfer) -> Upkeep {
         // with inertia, where points carry it
         point_vectors: if carried { 2 } else { 1 },
         point_matrices: 0,
+        overlap_matrices: 0,
         node_vectors: 9 + if remembers { HISTORY + 1 } else { 0 },
         // of the displacement, of its increment, of the memory; each point's moduli are made anew
         forces: if remembers { 6.0 } else { 4.0 },

@@ -5,6 +5,7 @@
     reason = "a gate that cannot be set up has failed"
 )]
 
+use allocation_counter::measure;
 use anechoic_solver::boundary::SideMethod;
 use anechoic_solver::flow::{Dimension, Space};
 use anechoic_solver::linear::Moment;
@@ -303,24 +304,44 @@ fn echo(record: &Record, reference: &Record, standard: &Record, t1: f64) -> [f64
     ]
 }
 
-/// Eight cells of layer against the same mesh extended until nothing comes back (certified).
+/// What the layer takes is what it is billed, the second memory of edges and corners included: without it a
+/// sixth is missing.
+#[test]
+fn edges_and_corners_are_on_the_bill() {
+    let of = |side: SideMethod| {
+        let mut problem = quarter(10, side);
+        problem.end_time = 3.0 * problem.dt;
+        let bill = anechoic_solver::bill(&problem).unwrap().bytes();
+        let used = measure(|| drop(solved(&problem))).bytes_max;
+        [bill as f64, used as f64]
+    };
+    let extended = SideMethod::new("extended").with("thickness_m", 8.0 * CELL);
+    let ([billed, used], plain) = (of(layer(8)), of(extended));
+    let [billed, used] = [billed - plain[0], used - plain[1]];
+    println!("the layer takes {used:.3e} B, billed {billed:.3e} B");
+    assert!((used / billed - 1.0).abs() < 0.1);
+}
+
+/// Eight cells of layer against the same mesh extended until nothing comes back (certified), by both schemes:
+/// 0.286 and 0.809 % explicit, 0.287 and 0.816 % implicit, accepted with a twentieth to either side.
+///
+/// Mutations, mean and worst: U left out of explicit forces 0.31 and 0.83 %; psi not moved on 0.43 and 1.1 %;
+/// q_l with the other sign 0.57 and 1.2 %; cross terms without memory 2.3 and 8.5 %. Without e_3 dt^2/4 in the
+/// damping the echo is the same: the masses of a step's ends are checked beside the kernel.
 #[test]
 fn eight_cells_leave_little_echo() {
-    let end = 1.2;
-    let run = |side: SideMethod| {
-        let mut problem = quarter(10, side);
-        problem.end_time = end;
-        solved(&problem)
-    };
-    // 2 x 600 m at 1095 m/s: nothing is back before 1.28 s
-    let extended = |thickness: f64| SideMethod::new("extended").with("thickness_m", thickness);
-    let reference = run(extended(600.0));
-    let standard = run(extended(160.0));
-    let [mean, worst] = echo(&run(layer(8)), &reference, &standard, 0.4);
-    println!(
-        "8 cells: mean {:.3} %, worst {:.3} %",
-        100.0 * mean,
-        100.0 * worst
-    );
-    assert!(mean < 0.01 && worst < 0.03);
+    for scheme in [Scheme::Explicit, Scheme::Newmark] {
+        let run = |side: SideMethod| {
+            let mut problem = quarter(10, side);
+            (problem.scheme, problem.end_time, problem.rel_tol) = (scheme, 1.2, 1e-10);
+            solved(&problem)
+        };
+        // 2 x 600 m and 200 m at 1095 m/s: nothing is back before 1.28 s
+        let extended = |thickness: f64| SideMethod::new("extended").with("thickness_m", thickness);
+        let (reference, standard) = (run(extended(600.0)), run(extended(160.0)));
+        let [mean, worst] = echo(&run(layer(8)), &reference, &standard, 0.4);
+        let per_cent = [100.0 * mean, 100.0 * worst];
+        println!("{scheme:?}, 8 cells: mean and worst {per_cent:.3?} %");
+        assert!((mean / 0.00286 - 1.0).abs() < 0.05 && (worst / 0.00812 - 1.0).abs() < 0.05);
+    }
 }

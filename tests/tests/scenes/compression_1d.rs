@@ -183,9 +183,12 @@ fn the_printed_poissons_ratio_makes_a_slow_column() {
             row.why
         );
     }
-    let posed = finished.study.runs[0].prepared.scene.posed();
-    let plane = posed.plane().expect("a plane scene");
-    let speed = plane.material.p_speed();
+    let speed = finished.study.runs[0]
+        .prepared
+        .scene
+        .posed()
+        .material()
+        .p_speed();
     assert!((speed - 17.6).abs() < 0.05, "{speed}");
 }
 

@@ -3,6 +3,7 @@
 mod bases;
 mod budget;
 mod compression_1d;
+mod cube_source;
 mod explicit_column;
 mod explicit_errors;
 mod explicit_point_source;

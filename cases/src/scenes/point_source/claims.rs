@@ -3,9 +3,10 @@
 
 use super::{PointSource, settlement};
 use crate::scene::SceneClaim;
+use crate::spec::TimeSpec;
 use anechoic_reference::claim::{Accept, Claim, Evidence};
 use anechoic_reports::tradeoff::RELATIVE_COST;
-use anechoic_solver::problem::{PointMode, Transfer};
+use anechoic_solver::problem::{PointMode, Scheme, Transfer};
 use anechoic_solver::wavelet::Wavelet;
 
 /// Method, group, what is accepted, why.
@@ -186,6 +187,16 @@ fn gate() -> Vec<Stated> {
     .concat()
 }
 
+/// The paper's steps and end, implicit or explicit: the layer's equations are discretised alike.
+fn is_stated_time(scene: &PointSource, papers: &PointSource) -> bool {
+    let implicit = TimeSpec {
+        scheme: papers.time.scheme,
+        ..scene.time.clone()
+    };
+    let stated = [papers.time.scheme, Scheme::Explicit];
+    implicit == papers.time && stated.contains(&scene.time.scheme)
+}
+
 /// Why the targets do not apply to the scene as it stands.
 fn obstacle(scene: &PointSource) -> Option<String> {
     let papers = PointSource::default();
@@ -195,7 +206,7 @@ fn obstacle(scene: &PointSource) -> Option<String> {
         differs("receivers", scene.receivers == papers.receivers),
         differs("material", scene.material == papers.material),
         differs("grid.h_m", scene.grid == papers.grid),
-        differs("time", scene.time == papers.time),
+        differs("time", is_stated_time(scene, &papers)),
         differs("t1_s", scene.t1_s == papers.t1_s),
         differs("source", is_stated_load(scene)),
     ]

@@ -68,24 +68,26 @@ struct Corners<const D: usize> {
 }
 
 impl<const D: usize> Corners<D> {
+    /// `U' - U` of a node: dt/2 (u + u').
+    fn step(trial: &Trial<'_, D>, node: usize) -> Vector<D> {
+        let (u, d) = (&trial.start[node], &trial.increment[node]);
+        std::array::from_fn(|i| 0.5 * trial.dt * (2.0 * u[i] + d[i]))
+    }
+
     /// Sets U'.
     fn advance(&mut self, trial: &Trial<'_, D>) {
         for (node, integral) in self.nodes.iter().zip(&mut self.integral) {
-            let (u, d) = (trial.start[*node], trial.increment[*node]);
-            for i in 0..D {
-                integral[i] += 0.5 * trial.dt * (2.0 * u[i] + d[i]);
-            }
+            let step = Self::step(trial, *node);
+            *integral = std::array::from_fn(|i| integral[i] + step[i]);
         }
     }
 
     /// Adds `e_3 U`, or `e_3 U'` of a trial.
     fn force(&self, trial: Option<&Trial<'_, D>>, out: &mut [Vector<D>]) {
         for ((node, weight), integral) in self.nodes.iter().zip(&self.weight).zip(&self.integral) {
+            let step = trial.map_or([0.0; D], |trial| Self::step(trial, *node));
             for i in 0..D {
-                let more = trial.map_or(0.0, |trial| {
-                    0.5 * trial.dt * (2.0 * trial.start[*node][i] + trial.increment[*node][i])
-                });
-                out[*node][i] += weight[i] * (integral[i] + more);
+                out[*node][i] += weight[i] * (integral[i] + step[i]);
             }
         }
     }
@@ -319,7 +321,11 @@ impl<const D: usize> RegionKernel<D> for Solid<D> {
             self.memory.as_flattened_mut().as_flattened_mut(),
             self.integral.as_flattened_mut().as_flattened_mut(),
         ];
-        all.extend(self.corners.iter_mut().map(|c| c.integral.as_flattened_mut()));
+        all.extend(
+            self.corners
+                .iter_mut()
+                .map(|c| c.integral.as_flattened_mut()),
+        );
         all
     }
 

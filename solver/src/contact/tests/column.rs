@@ -69,7 +69,7 @@ impl Column {
     fn nodes(&self, p: usize) -> impl Iterator<Item = (usize, f64, f64)> + use<> {
         let along = self.basis.point(self.place[p] + 2.0, CELLS + 5);
         let entry = move |k| {
-            let node = (along.first + k as isize) as usize;
+            let node = (along.first + k as i32) as usize;
             (node, along.values[k], along.slopes[k])
         };
         (0..3).map(entry).filter(|n| n.1 > 0.0)

@@ -34,7 +34,7 @@ fn force_of_a_uniform_stress_is_its_traction_on_the_ends() {
     for cell in 0..grid.cells[0] * grid.cells[1] {
         let index = [cell % grid.cells[0], cell / grid.cells[0]];
         let lower = std::array::from_fn(|a| grid.origin[a] + grid.h[a] * index[a] as f64);
-        points.fill_cell(&lower, &grid.h, 2, 2.0);
+        points.fill_cell(&lower, &grid.h, 2, None, 2.0);
     }
     let stress = [[3.0, 0.7], [0.7, -1.0]];
     for basis in KINDS {

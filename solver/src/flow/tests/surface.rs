@@ -12,7 +12,7 @@ fn rectangle(basis: BasisKind, off: f64) -> Start<2> {
     let mut points = Points::<2>::default();
     for (i, j) in (4..9).flat_map(|i| (3..10).map(move |j| (i, j))) {
         let lower = [grid.h[0] * (i as f64 + off), grid.h[1] * (j as f64 - off)];
-        points.fill_cell(&lower, &grid.h, 2, 2.0);
+        points.fill_cell(&lower, &grid.h, 2, None, 2.0);
     }
     let places = points.place;
     Start {
