@@ -9,7 +9,6 @@ use anechoic_solver::problem::{Aabb, Drive, PointMode, Problem, Scheme, Transfer
 use anechoic_solver::record::Record;
 use anechoic_tests::explicit::{FLOWS, flowing, leapfrog, longest_step};
 use anechoic_tests::{DEPTH, Unwatched, column, half_space, solved, ten_cells, worst_echo};
-use std::f64::consts::PI;
 
 /// A small target with layers of ten cells, `nu` as given, in steps of `share` of the longest.
 fn layered(layer: &str, nu: f64, share: f64) -> Problem<2> {
@@ -189,32 +188,3 @@ fn explicit_steps_solve_the_implicit_steps_problem() {
         assert!(difference < most, "{layer:?}: {difference}");
     }
 }
-
-/// Frequency (Hz) of waves in layers, and the rates' printed coefficient.
-const FREQUENCIES: [f64; 3] = [1.0, 2.0, 3.0];
-
-/// Reflection of a harmonic wave by what lies below the column: the transform of what comes after
-/// `back` (s) at the free top, over twice that of the pulse.
-pub(super) fn harmonic_reflection(problem: &Problem<2>) -> [f64; 3] {
-    let record = solved(problem);
-    let Drive::SideVelocity { pulse, .. } = &problem.drives[0] else {
-        panic!("the column is driven at its top");
-    };
-    let back = 2.0 * problem.target.upper[1] / problem.material.p_speed();
-    let values = record.receivers.column("A_vy").unwrap();
-    FREQUENCIES.map(|f| {
-        let (mut echo, mut sent) = ([0.0; 2], [0.0; 2]);
-        for (t, v) in record.receivers.times.iter().zip(values) {
-            let (sine, cosine) = (2.0 * PI * f * t).sin_cos();
-            let first = 2.0 * pulse.value(*t);
-            sent = [sent[0] + first * cosine, sent[1] + first * sine];
-            // from just before its front to just before the second echo's
-            if (0.9 * back..1.95 * back).contains(t) {
-                echo = [echo[0] + v * cosine, echo[1] + v * sine];
-            }
-        }
-        echo[0].hypot(echo[1]) / sent[0].hypot(sent[1])
-    })
-}
-
-pub(super) const AT: [f64; 3] = FREQUENCIES;

@@ -67,9 +67,9 @@ fn a_smooth_pulse_converges_with_second_order_in_explicit_steps() {
             .set("receivers.B.x_m=2");
         options.request.presets = vec!["explicit".to_owned()];
         let over = Over::parse("grid.h_m=4,2,1,0.5").unwrap();
-        let finished = converge(&options, &over).unwrap();
+        let finished = converge(&options, &[over], false).unwrap();
         for run in &finished.study.runs {
-            let problem = run.prepared.scene.problem();
+            let problem = run.prepared.scene.posed().plane().unwrap();
             let h = run.prepared.scene.cell_m();
             let courant = problem.dt * problem.material.p_speed() / h;
             assert!((courant - 0.4).abs() < 1e-12, "{courant}");

@@ -133,7 +133,7 @@ fn the_blow_on_a_column_has_the_force_of_its_shock() {
                  contact {early:.3} h early, deepest {deepest:.3} h"
             );
             assert!((blow - 1.0).abs() < 0.03, "{blow}");
-            assert!((shock - 1.0).abs() < 0.02, "{shock}");
+            assert!((shock - 1.0).abs() < 0.03, "{shock}");
             assert!(early.abs() < 0.05, "{early}");
             // points' boxes touch at a quarter of a cell, so that their centres hardly get in
             assert!(deepest < 0.1, "{deepest}");
