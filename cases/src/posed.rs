@@ -99,7 +99,9 @@ impl Posed {
     /// Points in a cell when there is one more along each axis.
     pub fn with_points_more(&self) -> usize {
         fn of<const D: usize>(problem: &Problem<D>) -> usize {
-            let along = (problem.points_per_cell as f64).powf(1.0 / D as f64).round();
+            let along = (problem.points_per_cell as f64)
+                .powf(1.0 / D as f64)
+                .round();
             (along as usize + 1).pow(D as u32)
         }
         either!(self, problem => of(problem))

@@ -3,7 +3,7 @@
 use super::{NO_ECHO, Picture, PictureError, receivers};
 use crate::checks::inner_thickness;
 use crate::judge::references::References;
-use crate::posed::either;
+use crate::posed::{Posed, either};
 use crate::runner::Run;
 use anechoic_reports::plot::{Corners, Field, Guide, PlotError, SnapshotPlot, SpaceTimePlot};
 use anechoic_reports::ranking::Ranking;
@@ -119,7 +119,14 @@ pub(super) fn snapshots(
     Ok(Some(Picture {
         name: "snapshots".into(),
         title: "Displacement in the target".into(),
-        caption: "Grey: material around the target, in the middle the method's layer with its outer edge. One scale for all.".into(),
+        caption: format!(
+            "Grey: material around the target, in the middle the method's layer with its outer edge. One scale for all.{}",
+            match method.prepared.scene.posed() {
+                Posed::Plane(_) => "",
+                Posed::Space(_) =>
+                    " Of the body in space its back side is shown, a plane of symmetry.",
+            }
+        ),
         drawing,
         raster: true,
     }))

@@ -94,7 +94,7 @@ pub static INFO: SceneInfo = SceneInfo {
     name: "cube-source",
     title: "a force on a half-space in three dimensions: layers that meet in edges and corners",
     summary: "A short force on the surface of a block of ground sends out waves in all directions; two planes of symmetry leave a quarter to solve. Where the sides' layers meet they have edges and a corner, which the plane does not know. The reference is the same scheme on a mesh so large that nothing can come back in time.",
-    source: "this program's own; the layer after Basu 2009 (doi 10.1002/nme.2397)",
+    source: "this program's own; the layer after Basu & Chopra 2004",
     fields: &[
         NUMERICS,
         values::FIELDS,

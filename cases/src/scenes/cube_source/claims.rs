@@ -5,6 +5,7 @@ use super::CubeSource;
 use crate::scene::SceneClaim;
 use crate::spec::ReceiverSpec;
 use anechoic_reference::claim::{Accept, Claim, Evidence};
+use anechoic_solver::problem::PointMode;
 
 /// Mean and worst of a group's receivers as measured.
 type Measured = (&'static str, [f64; 2]);
@@ -21,6 +22,13 @@ const WHOLE: &[Measured] = &[
     ("A", [0.00241, 0.00554]),
     ("B", [0.00458, 0.00629]),
     ("C", [0.00484, 0.00776]),
+];
+
+/// The same, points that move.
+const MOVING: &[Measured] = &[
+    ("A", [0.00389, 0.00888]),
+    ("B", [0.00479, 0.00668]),
+    ("C", [0.00502, 0.00773]),
 ];
 
 /// The prototype's worst receiver on a quarter of 20^3 cells with 8 cells of layer.
@@ -59,7 +67,7 @@ pub(super) fn claims(scene: &CubeSource) -> Vec<SceneClaim> {
             claim(
                 (*group).to_owned(),
                 Accept::at_most(1.25 * mean),
-                "measured with points at rest, and a quarter above; the mean of all receivers is 0.36 %, a prototype's 0.48 %",
+                "measured, and a quarter above; the mean of all receivers is 0.36 % at rest and 0.44 % moving, a prototype's 0.48 %",
             ),
             claim(
                 format!("{group}:worst"),
@@ -68,7 +76,11 @@ pub(super) fn claims(scene: &CubeSource) -> Vec<SceneClaim> {
             ),
         ],
     };
-    let measured = if gates { GATE } else { WHOLE };
+    let measured = match (gates, scene.points.mode) {
+        (true, _) => GATE,
+        (false, PointMode::Frozen) => WHOLE,
+        (false, PointMode::Moving) => MOVING,
+    };
     measured.iter().flat_map(of).collect()
 }
 
@@ -90,6 +102,11 @@ fn obstacle(scene: &CubeSource, gates: bool) -> Option<String> {
         differs(
             "receivers",
             here(&scene.receivers) && (gates || scene.receivers == whole.receivers),
+        ),
+        differs(
+            "points",
+            scene.points.per_cell == whole.points.per_cell
+                && (!gates || scene.points.mode == PointMode::Frozen),
         ),
         differs("material", scene.material == whole.material),
         differs("grid", scene.grid == whole.grid),
