@@ -90,7 +90,6 @@ fn step_of<const D: usize>(scene: &Problem<D>, time: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::scenes::point_source::PointSource;
     use anechoic_solver::record::{Cost, SeriesTable, Status};
 

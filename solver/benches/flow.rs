@@ -5,7 +5,7 @@
 //! 216 bytes a point-step as a share of what STREAM's triad moves on one thread in the same run. The
 //! last line sets two threads on one body against two bodies of half the size on a thread each.
 
-use anechoic_solver::flow::{Carry, Constitution, Flow, NodeSums, Start};
+use anechoic_solver::flow::{Carry, Constitution, Dimension, Flow, NodeSums, Space, Start};
 use anechoic_solver::grid::Grid;
 use anechoic_solver::material::linear_elastic::LinearElastic;
 use anechoic_solver::problem::{BasisKind, Elastic};

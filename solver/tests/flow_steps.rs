@@ -3,7 +3,7 @@
 
 use allocation_counter::measure;
 use anechoic_solver::flow::surface::Surface;
-use anechoic_solver::flow::{Carry, Constitution, Flow, NodeSums, Start};
+use anechoic_solver::flow::{Carry, Constitution, Dimension, Flow, NodeSums, Space, Start};
 use anechoic_solver::grid::Grid;
 use anechoic_solver::material::linear_elastic::LinearElastic;
 use anechoic_solver::problem::{BasisKind, Elastic};
@@ -38,7 +38,7 @@ fn block(rows: usize, carry: Carry, shared: bool) -> (Grid<2>, Box<dyn Flow<2>>)
         shared,
     };
     let law = Constitution::LinearElastic(LinearElastic::new(&ELASTIC));
-    (grid, law.flow(start).expect("within the grid"))
+    (grid, Space::flow(law, start).expect("within the grid"))
 }
 
 /// Steps of a free body in modified order, without a node's own allocation.

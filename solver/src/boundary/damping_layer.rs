@@ -178,7 +178,11 @@ pub(crate) fn layout<const D: usize>(
 }
 
 pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>, SolverError> {
-    let profiles: Vec<Profile> = context.sides.iter().map(|a| Profile::of(context, a)).collect();
+    let profiles: Vec<Profile> = context
+        .sides
+        .iter()
+        .map(|a| Profile::of(context, a))
+        .collect();
     let mut terms = walls(context);
     if context.velocity != [0.0; D] || profiles.iter().any(|p| p.printed) {
         terms.push(Box::new(ScaledVelocities {
@@ -188,7 +192,12 @@ pub(crate) fn build<const D: usize>(context: &Context<'_, D>) -> Result<Parts<D>
         }));
         return Ok(Parts::of_terms(terms));
     }
-    let rate = |n: usize| (n as u32, strongest(&profiles, &context.grid.node_place(n), [0.0; D]).0);
+    let rate = |n: usize| {
+        (
+            n as u32,
+            strongest(&profiles, &context.grid.node_place(n), [0.0; D]).0,
+        )
+    };
     let nodes = (0..context.grid.node_count()).map(rate);
     let nodes = nodes.filter(|(_, rate)| *rate != 0.0).collect();
     terms.push(Box::new(DampingLayer { nodes }));
@@ -217,7 +226,11 @@ impl Profile {
             true => (number("alpha_per_m") * thickness, 1.0),
             false => (number("sigma_max_per_s"), number("power")),
         };
-        let inwards = if side.upper { -layout.inside } else { layout.inside };
+        let inwards = if side.upper {
+            -layout.inside
+        } else {
+            layout.inside
+        };
         Profile {
             side,
             inner_edge: context.plane(side) + inwards,

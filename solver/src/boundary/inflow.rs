@@ -79,7 +79,11 @@ impl MovingEnd {
         let material = &context.material_box;
         MovingEnd {
             side,
-            start: if side.upper { material.upper } else { material.lower }[axis],
+            start: if side.upper {
+                material.upper
+            } else {
+                material.lower
+            }[axis],
             velocity: context.velocity[axis],
             h: context.grid.h[axis],
             nodes: (0..context.grid.node_count()).map(place).collect(),
