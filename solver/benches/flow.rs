@@ -66,21 +66,20 @@ impl Run {
             .iter()
             .map(|x| [0.1 * (0.1 * x[1]).sin(), 0.1 * (0.1 * x[0]).cos()]);
         let nodes = grid.node_count();
-        let flow = law
-            .flow(Start {
-                velocities: velocities.collect(),
-                grid,
-                basis,
-                per_axis: 2,
-                places,
-                stress: None,
-                volume: 0.25,
-                density: ELASTIC.density,
-                carry,
-                mean_volumes: false,
-                shared,
-            })
-            .expect("places within the grid");
+        let start = Start {
+            velocities: velocities.collect(),
+            grid,
+            basis,
+            per_axis: 2,
+            places,
+            stress: None,
+            volume: 0.25,
+            density: ELASTIC.density,
+            carry,
+            mean_volumes: false,
+            shared,
+        };
+        let flow = Space::flow(law, start).expect("places within the grid");
         Run {
             flow,
             sums: NodeSums::new(nodes),

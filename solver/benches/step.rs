@@ -34,6 +34,7 @@ fn problem(point_mode: PointMode, transfer: Transfer, layer: &str, thickness: f6
         point_mode,
         transfer,
         points_per_cell: 4,
+        flow: Default::default(),
         material: Elastic {
             youngs_modulus: 2e9,
             poissons_ratio: 0.25,
@@ -184,7 +185,9 @@ fn parts(c: &mut Criterion) {
         ..problem
     };
     let (mut model, _, _) = under_way(&frozen);
-    model.begin_step(times, moment);
+    model
+        .begin_step(times, moment)
+        .expect("points within the grid");
     group.bench_function("solve, frozen", |b| {
         b.iter(|| {
             model
