@@ -117,6 +117,41 @@ pub enum Volume {
     Cell,
 }
 
+/// Fields of discretisation of scenes whose points move in explicit steps and in no others.
+pub const FLOW_NUMERICS: &[Field] = &[
+    Field::new(
+        "basis",
+        Kind::Word(&["linear", "gimp", "bspline"]),
+        "shape functions on the grid",
+    ),
+    Field::new(
+        "grid.h_m",
+        Kind::Number(Range::POSITIVE),
+        "largest edge of a cell (m); cells are fitted to the body",
+    ),
+    Field::new("time.scheme", Kind::Word(&["explicit"]), "time integration"),
+    Field::new(
+        "time.courant",
+        Kind::Number(Range::within(1e-3, 2.0)),
+        "time step over the time that the fastest wave takes through a cell",
+    ),
+    Field::new(
+        "points.mode",
+        Kind::Word(&["moving"]),
+        "do material points move?",
+    ),
+    Field::new(
+        "points.transfer",
+        Kind::Word(&["affine", "flip", "pic"]),
+        "between points and nodes",
+    ),
+    Field::new(
+        "points.per_cell",
+        Kind::Whole(1, 100),
+        "points in a cell, all directions together: a square",
+    ),
+];
+
 /// Fields of explicit steps of moving points.
 pub const FLOW: &[Field] = &[
     Field::new(

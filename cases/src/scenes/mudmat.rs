@@ -116,44 +116,11 @@ pub struct Mat {
     pub reach: f64,
 }
 
-const FIELDS: &[Field] = &[
-    Field::new(
-        "basis",
-        Kind::Word(&["linear", "gimp", "bspline"]),
-        "shape functions on the grid",
-    ),
-    Field::new(
-        "grid.h_m",
-        Kind::Number(Range::POSITIVE),
-        "largest edge of a cell (m); cells are fitted to the body",
-    ),
-    Field::new("time.scheme", Kind::Word(&["explicit"]), "time integration"),
-    Field::new(
-        "time.courant",
-        Kind::Number(Range::within(1e-3, 2.0)),
-        "time step over the time that the fastest wave takes through a cell",
-    ),
-    Field::new(
-        "time.end_s",
-        Kind::Number(Range::POSITIVE),
-        "end of the run (s)",
-    ),
-    Field::new(
-        "points.mode",
-        Kind::Word(&["moving"]),
-        "do material points move?",
-    ),
-    Field::new(
-        "points.transfer",
-        Kind::Word(&["affine", "flip", "pic"]),
-        "between points and nodes",
-    ),
-    Field::new(
-        "points.per_cell",
-        Kind::Whole(1, 100),
-        "points in a cell, all directions together: a square",
-    ),
-];
+const END: &[Field] = &[Field::new(
+    "time.end_s",
+    Kind::Number(Range::POSITIVE),
+    "end of the run (s)",
+)];
 
 const SLIDE: &[Field] = &[
     Field::new(
@@ -224,7 +191,15 @@ pub static INFO: SceneInfo = SceneInfo {
     title: "a slide against a mudmat: the echo of its top and of its end",
     summary: "A slide of soft clay, 10 m high, runs at 6 m/s against a mudmat that stands one metre out of the base. The blow sends out a wave; it comes back from the slide's free top and from where the model ends, and shakes the pressure on the mudmat.",
     source: "S21, section 3.2 (doi 10.1631/jzus.A2000399)",
-    fields: &[FIELDS, FLOW, BODY, ELASTIC, SLIDE, PROBES_AND_SIDES],
+    fields: &[
+        FLOW_NUMERICS,
+        END,
+        FLOW,
+        BODY,
+        ELASTIC,
+        SLIDE,
+        PROBES_AND_SIDES,
+    ],
     profiles: values::PROFILES,
     presets: values::PRESETS,
     methods: values::METHODS,

@@ -99,40 +99,6 @@ pub struct Pipe {
     pub reach: f64,
 }
 
-const FIELDS: &[Field] = &[
-    Field::new(
-        "basis",
-        Kind::Word(&["linear", "gimp", "bspline"]),
-        "shape functions on the grid",
-    ),
-    Field::new(
-        "grid.h_m",
-        Kind::Number(Range::POSITIVE),
-        "largest edge of a cell (m); cells are fitted to the body",
-    ),
-    Field::new("time.scheme", Kind::Word(&["explicit"]), "time integration"),
-    Field::new(
-        "time.courant",
-        Kind::Number(Range::within(1e-3, 2.0)),
-        "time step over the time that the fastest wave takes through a cell",
-    ),
-    Field::new(
-        "points.mode",
-        Kind::Word(&["moving"]),
-        "do material points move?",
-    ),
-    Field::new(
-        "points.transfer",
-        Kind::Word(&["affine", "flip", "pic"]),
-        "between points and nodes",
-    ),
-    Field::new(
-        "points.per_cell",
-        Kind::Whole(1, 100),
-        "points in a cell, all directions together: a square",
-    ),
-];
-
 const PIPE: &[Field] = &[
     Field::new(
         "material.s_u_Pa",
@@ -178,7 +144,7 @@ pub static INFO: SceneInfo = SceneInfo {
     title: "a pipe pushed into clay: the echo of the base in its resistance",
     summary: "A smooth pipe is pushed from the surface into clay that flows at its undrained strength. Pushed fast it sends out a wave that comes back from wherever the mesh ends and shakes the resistance; pushed slowly it meets the resistance of a slip-line solution.",
     source: "S21, section 3.3 (doi 10.1631/jzus.A2000399)",
-    fields: &[FIELDS, FLOW, BODY, ELASTIC, PIPE, PROBES_AND_SIDES],
+    fields: &[FLOW_NUMERICS, FLOW, BODY, ELASTIC, PIPE, PROBES_AND_SIDES],
     profiles: values::PROFILES,
     presets: values::PRESETS,
     methods: values::METHODS,
@@ -261,8 +227,8 @@ impl PipePenetration {
                 pic_share: self.flow.pic_share,
                 mean_volumes: self.flow.volume == Volume::Cell,
                 intruders: vec![self.intruder()],
-                // what the pipe pushes aside has to go somewhere
-                room: [[0.0; 2], [0.0, 0.5 * self.pipe.diameter_m]],
+                // what the pipe pushes aside has to go somewhere, and splashes on fine cells
+                room: [[0.0; 2], [0.0, 1.5 * self.pipe.diameter_m]],
                 ..FlowSetup::default()
             },
             sides: self.boundary.sides(),
