@@ -26,16 +26,22 @@ pub trait Scene: Debug + Send + Sync {
 
     /// Amplitude over which residuals are taken, in the quantity of the references; `None` where
     /// the source is no such motion, and residuals have no meaning.
-    fn pulse_amplitude(&self) -> Option<f64>;
+    fn pulse_amplitude(&self) -> Option<f64> {
+        None
+    }
 
-    /// When echoes are looked for.
-    fn windows(&self) -> Vec<Window>;
+    /// When echoes are looked for; never, where the scene has norms of its own.
+    fn windows(&self) -> Vec<Window> {
+        Vec::new()
+    }
 
     /// What is true at the receivers, at the given times (s).
     ///
     /// # Errors
     /// The reason why there is no reference for this scene as it stands.
-    fn references(&self, times: &[f64]) -> Result<Vec<Reference>, String>;
+    fn references(&self, _times: &[f64]) -> Result<Vec<Reference>, String> {
+        Ok(Vec::new())
+    }
 
     /// The same by a finer quadrature, where they have one: what that changes is their own error.
     ///

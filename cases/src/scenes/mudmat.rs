@@ -23,9 +23,7 @@ mod values;
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
 use crate::posed::Posed;
-use crate::scene::{
-    self, Beside, Curve, OwnNumber, OwnPicture, Reference, Scene, SceneClaim, SceneInfo, Window,
-};
+use crate::scene::{self, Beside, Curve, OwnNumber, OwnPicture, Scene, SceneClaim, SceneInfo};
 use crate::spec::*;
 use anechoic_solver::contact::Contact;
 use anechoic_solver::contact::body::{Motion, RigidBody};
@@ -339,18 +337,6 @@ impl Scene for Mudmat {
         checks.require(exposed < height, "mudmat.exposed_m", || {
             format!("the slide is {height} m high and would not pass")
         });
-    }
-
-    fn pulse_amplitude(&self) -> Option<f64> {
-        None
-    }
-
-    fn windows(&self) -> Vec<Window> {
-        Vec::new()
-    }
-
-    fn references(&self, _times: &[f64]) -> Result<Vec<Reference>, String> {
-        Ok(Vec::new())
     }
 
     fn measures(&self, run: &Record, beside: &Beside<'_>) -> Vec<OwnNumber> {

@@ -22,9 +22,7 @@ mod values;
 use crate::checks::Checks;
 use crate::field::{Field, Kind, Range};
 use crate::posed::Posed;
-use crate::scene::{
-    self, Beside, Curve, OwnNumber, OwnPicture, Reference, Scene, SceneClaim, SceneInfo, Window,
-};
+use crate::scene::{self, Beside, Curve, OwnNumber, OwnPicture, Scene, SceneClaim, SceneInfo};
 use crate::spec::*;
 use anechoic_solver::boundary::{SideMethod, extended};
 use anechoic_solver::contact::Contact;
@@ -271,18 +269,6 @@ impl Scene for PipePenetration {
                 self.body.height_m
             )
         });
-    }
-
-    fn pulse_amplitude(&self) -> Option<f64> {
-        None
-    }
-
-    fn windows(&self) -> Vec<Window> {
-        Vec::new()
-    }
-
-    fn references(&self, _times: &[f64]) -> Result<Vec<Reference>, String> {
-        Ok(Vec::new())
     }
 
     fn measures(&self, run: &Record, beside: &Beside<'_>) -> Vec<OwnNumber> {

@@ -39,6 +39,20 @@ impl LinearElastic {
         }
     }
 
+    /// Elastic energy (J) of points under these displacement gradients, with their volumes.
+    pub(crate) fn energy_of<const D: usize>(
+        &self,
+        gradients: &[Matrix<D>],
+        volumes: &[f64],
+    ) -> f64 {
+        let energy = |(g, v): (&Matrix<D>, &f64)| {
+            let mut stress = [zero::<D>()];
+            self.small_stress(&[*g], &mut stress);
+            v * self.energy_density(&stress[0])
+        };
+        gradients.iter().zip(volumes).map(energy).sum()
+    }
+
     #[inline]
     fn law<const D: usize>(&self, strain: &Matrix<D>) -> Matrix<D> {
         let pressure = self.lambda * trace(strain);

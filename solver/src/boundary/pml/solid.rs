@@ -345,12 +345,7 @@ impl<const D: usize> RegionKernel<D> for Solid<D> {
         _u: &[Vector<D>],
     ) -> f64 {
         let volumes = &points.volume[self.range.clone()];
-        let energy = |(g, v): (&Matrix<D>, &f64)| {
-            let mut stress = [zero::<D>()];
-            self.material.small_stress(&[*g], &mut stress);
-            v * self.material.energy_density(&stress[0])
-        };
-        self.gradient.iter().zip(volumes).map(energy).sum()
+        self.material.energy_of(&self.gradient, volumes)
     }
 }
 
