@@ -26,7 +26,7 @@ fn share<const D: usize>(problem: &Problem<D>) -> Result<f64, SolverError> {
     let counts: [usize; D] =
         std::array::from_fn(|a| ((all.upper[a] - all.lower[a]) / h[a]).round() as usize);
     let ahead = CELLS_AHEAD * h.into_iter().fold(0.0, f64::max);
-    let (speed, end) = (problem.material.p_speed(), problem.last_time());
+    let (speed, end) = (problem.stiffest().p_speed(), problem.last_time());
     let cells: usize = counts.iter().product();
     let mut awake = 0.0;
     for cell in 0..cells {

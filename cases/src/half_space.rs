@@ -57,6 +57,7 @@ impl HalfSpace {
             transfer: self.points.transfer,
             points_per_cell: self.points.per_cell,
             face_gap: self.points.face_gap,
+            inclusion: self.material.inclusion,
             material: self.material.elastic(),
             flow: FlowSetup::default(),
             sides: self.boundary.sides(),

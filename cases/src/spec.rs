@@ -190,6 +190,9 @@ pub struct MaterialSpec {
     pub nu: f64,
     /// Density (kg/m3).
     pub rho_kg_m3: f64,
+    /// Stiffness of the middle third of the body along each axis over that of all else; left out: 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inclusion: Option<f64>,
 }
 
 impl MaterialSpec {
@@ -403,6 +406,13 @@ pub const ELASTIC: &[Field] = &[
         "density (kg/m3)",
     ),
 ];
+
+/// Field of a body of two stiffnesses.
+pub const INCLUSION: &[Field] = &[Field::new(
+    "material.inclusion",
+    Kind::OptionalNumber(Range::POSITIVE, "left out: one stiffness"),
+    "Young's modulus of the middle third of the body along each axis over that of all else",
+)];
 
 /// Receivers and sides of a 2D scene.
 pub const PROBES_AND_SIDES: &[Field] = &[

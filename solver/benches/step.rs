@@ -26,6 +26,7 @@ fn problem(point_mode: PointMode, transfer: Transfer, layer: &str, thickness: f6
         cell_size: 20.0,
         aspect: 1.0,
         face_gap: None,
+        inclusion: None,
         basis: BasisKind::Linear,
         scheme: Scheme::Newmark,
         mass: MassKind::Lumped,

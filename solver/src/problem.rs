@@ -147,6 +147,14 @@ pub struct Elastic {
 }
 
 impl Elastic {
+    /// The same with `ratio` times the stiffness.
+    pub fn stiffened(self, ratio: f64) -> Self {
+        Elastic {
+            youngs_modulus: ratio * self.youngs_modulus,
+            ..self
+        }
+    }
+
     /// Lamé's first constant (Pa).
     pub fn lambda(&self) -> f64 {
         let nu = self.poissons_ratio;
@@ -293,6 +301,9 @@ pub struct Problem<const D: usize> {
     pub face_gap: Option<f64>,
     /// The material of target and layers.
     pub material: Elastic,
+    /// Young's modulus of the middle third of the body along each axis over that of all else; `None`:
+    /// one stiffness.
+    pub inclusion: Option<f64>,
     /// What explicit steps of moving points have besides.
     pub flow: FlowSetup<D>,
     /// The boundary method of each side: `sides[axis][0]` lower, `sides[axis][1]` upper.
@@ -315,10 +326,38 @@ pub fn edges<const D: usize>(longest: f64, aspect: f64) -> [f64; D] {
     })
 }
 
+impl<const D: usize> Aabb<D> {
+    /// Is a place in it?
+    pub fn contains(&self, place: &[f64; D]) -> bool {
+        (0..D).all(|a| place[a] >= self.lower[a] && place[a] <= self.upper[a])
+    }
+}
+
 impl<const D: usize> Problem<D> {
     /// Largest edges of a cell (m).
     pub fn edges(&self) -> [f64; D] {
         edges(self.cell_size, self.aspect)
+    }
+
+    /// Where another stiffness than the body's is, if anywhere (m).
+    pub fn included(&self) -> Option<Aabb<D>> {
+        self.inclusion?;
+        let at = |third: f64| {
+            std::array::from_fn(|a| {
+                let (lower, upper) = (self.target.lower[a], self.target.upper[a]);
+                lower + third / 3.0 * (upper - lower)
+            })
+        };
+        Some(Aabb {
+            lower: at(1.0),
+            upper: at(2.0),
+        })
+    }
+
+    /// The stiffest material that there is.
+    pub fn stiffest(&self) -> Elastic {
+        self.material
+            .stiffened(self.inclusion.unwrap_or(1.0).max(1.0))
     }
 
     /// Steps that it takes to reach the end.

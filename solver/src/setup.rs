@@ -52,8 +52,8 @@ where
         movable = range.end;
         regions.push(Region {
             range: range.clone(),
-            in_target: *owner == Owner::Target,
-            kernel: bulk(problem, range.clone()),
+            in_target: *owner != Owner::Outside,
+            kernel: bulk(problem, *owner, range.clone()),
         });
     }
     for info in boundary::METHODS {
@@ -146,9 +146,17 @@ where
     Ok(Some(flow))
 }
 
-/// The kernel of plain material.
-fn bulk<const D: usize>(problem: &Problem<D>, range: Range<usize>) -> Box<dyn RegionKernel<D>> {
-    let material: Box<dyn MaterialBlock<D>> = Box::new(LinearElastic::new(&problem.material));
+/// The kernel of plain material, in the stiffness of its place.
+fn bulk<const D: usize>(
+    problem: &Problem<D>,
+    owner: Owner,
+    range: Range<usize>,
+) -> Box<dyn RegionKernel<D>> {
+    let elastic = match (owner, problem.inclusion) {
+        (Owner::Inclusion, Some(ratio)) => problem.material.stiffened(ratio),
+        _ => problem.material,
+    };
+    let material: Box<dyn MaterialBlock<D>> = Box::new(LinearElastic::new(&elastic));
     match problem.transfer {
         Transfer::Keep => Box::new(Kept::new(range, material)),
         _ => {
@@ -170,7 +178,7 @@ fn fill<const D: usize>(
     problem: &Problem<D>,
     geometry: &Geometry<D>,
 ) -> Result<Filled<D>, SolverError> {
-    let mut owners = vec![Owner::Target, Owner::Outside];
+    let mut owners = vec![Owner::Target, Owner::Inclusion, Owner::Outside];
     for layer in [LayerPoints::Carried, LayerPoints::Kept] {
         let has = |name: &str| {
             let mut sides = geometry.assigned.iter().filter(|a| a.method.method == name);
@@ -189,7 +197,7 @@ fn fill<const D: usize>(
     for wanted in owners {
         let start = points.len();
         for cell in 0..cells {
-            if geometry.owner(&problem.target, &geometry.cell_centre(cell)) == wanted {
+            if geometry.owner(problem, &geometry.cell_centre(cell)) == wanted {
                 let lower = geometry.cell_corner(cell);
                 let (n, gap) = (geometry.per_axis, problem.face_gap);
                 points.fill_cell(&lower, &h, n, gap, problem.material.density);

@@ -79,6 +79,7 @@ pub fn block(transfer: Transfer, point_mode: PointMode) -> Problem<2> {
         cell_size: 0.5,
         aspect: 1.0,
         face_gap: None,
+        inclusion: None,
         basis: BasisKind::Linear,
         scheme: Scheme::Newmark,
         mass: MassKind::Lumped,
@@ -115,6 +116,7 @@ pub fn column(h: f64, base: SideMethod) -> Problem<2> {
         cell_size: h,
         aspect: 1.0,
         face_gap: None,
+        inclusion: None,
         dt: 0.005 * h,
         end_time: 3.0,
         material: Elastic {
@@ -167,6 +169,7 @@ pub fn half_space(layer: SideMethod, point_mode: PointMode, transfer: Transfer) 
         cell_size: 20.0,
         aspect: 1.0,
         face_gap: None,
+        inclusion: None,
         dt: 0.01,
         end_time: 3.0,
         material: Elastic {

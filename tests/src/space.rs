@@ -29,6 +29,7 @@ pub fn quarter(cells: usize, layer: SideMethod) -> Problem<3> {
         cell_size: CELL,
         aspect: 1.0,
         face_gap: None,
+        inclusion: None,
         basis: plane.basis,
         scheme: Scheme::Explicit,
         mass: plane.mass,

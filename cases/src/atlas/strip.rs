@@ -66,6 +66,7 @@ impl Strip {
                 },
                 cell_size: h,
                 aspect: 1.0,
+                inclusion: None,
                 point_mode: PointMode::Frozen,
                 transfer: Transfer::Keep,
                 sides: [[free(), method.clone()], [free(), free()]],

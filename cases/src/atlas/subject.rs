@@ -167,6 +167,7 @@ impl Subject {
         Problem {
             cell_size: self.h,
             aspect: 1.0,
+            inclusion: None,
             point_mode: PointMode::Frozen,
             transfer: Transfer::Keep,
             ..self.like.clone()

@@ -72,8 +72,12 @@ pub(super) fn sides<const D: usize>() -> impl Iterator<Item = Side> {
     })
 }
 
-/// Distance (m) of the nearest source from a side of the body.
+/// Distance (m) of the nearest source from a side of the body; none through an inclusion that is faster
+/// than the material around it, which may have shortened the way.
 fn distance<const D: usize>(problem: &Problem<D>, side: Side) -> f64 {
+    if problem.inclusion.is_some_and(|ratio| ratio > 1.0) {
+        return 0.0;
+    }
     let target = &problem.target;
     let (lower, upper) = (target.lower[side.axis], target.upper[side.axis]);
     let from = |at: f64| if side.upper { upper - at } else { at - lower };

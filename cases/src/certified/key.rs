@@ -46,6 +46,9 @@ fn table_of<const D: usize>(problem: &Problem<D>) -> Table {
     if problem.aspect != 1.0 {
         put("aspect", problem.aspect.into());
     }
+    if let Some(ratio) = problem.inclusion {
+        put("inclusion", ratio.into());
+    }
     if let Some(gap) = problem.face_gap {
         put("face_gap", gap.into());
     }
@@ -146,7 +149,8 @@ mod tests {
             of(|s| s.boundary.left = SideMethod::new("dashpot")),
             hash_of_default
         );
-        let changes: [fn(&mut PointSource); 9] = [
+        let changes: [fn(&mut PointSource); 10] = [
+            |s| s.material.inclusion = Some(10.0),
             |s| s.grid.h_m = 10.0,
             |s| s.grid.aspect = Some(2.0),
             |s| s.points.face_gap = Some(0.1),

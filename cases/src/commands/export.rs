@@ -207,15 +207,24 @@ fn mesh(problem: &Problem<2>) -> String {
 }
 
 fn materials(problem: &Problem<2>) -> String {
-    let m = &problem.material;
-    format!(
-        "region,model,E_Pa,nu,rho_kg_m3,c_p_m_s,c_s_m_s\nbody,linear-elastic-plane-strain,{:?},{:?},{:?},{:?},{:?}\n",
-        m.youngs_modulus,
-        m.poissons_ratio,
-        m.density,
-        m.p_speed(),
-        m.s_speed()
-    )
+    let body = ("body", problem.material);
+    let included = problem.inclusion.map(|ratio| {
+        let name = "middle third of the body along each axis";
+        (name, problem.material.stiffened(ratio))
+    });
+    let mut text = String::from("region,model,E_Pa,nu,rho_kg_m3,c_p_m_s,c_s_m_s\n");
+    for (region, m) in [body].into_iter().chain(included) {
+        let _ = writeln!(
+            text,
+            "{region},linear-elastic-plane-strain,{:?},{:?},{:?},{:?},{:?}",
+            m.youngs_modulus,
+            m.poissons_ratio,
+            m.density,
+            m.p_speed(),
+            m.s_speed()
+        );
+    }
+    text
 }
 
 fn receivers(problem: &Problem<2>) -> String {

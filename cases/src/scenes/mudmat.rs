@@ -279,6 +279,7 @@ impl Mudmat {
             cell_size: self.grid.h_m,
             aspect: self.grid.aspect(),
             face_gap: self.points.face_gap,
+            inclusion: None,
             basis: self.basis,
             scheme: self.time.scheme,
             mass: Default::default(),

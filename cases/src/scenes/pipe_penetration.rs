@@ -208,6 +208,7 @@ impl PipePenetration {
             cell_size: self.grid.h_m,
             aspect: self.grid.aspect(),
             face_gap: self.points.face_gap,
+            inclusion: None,
             basis: self.basis,
             scheme: self.time.scheme,
             mass: Default::default(),

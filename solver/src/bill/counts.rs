@@ -31,8 +31,8 @@ impl Counts {
             if geometry.layers_at(&problem.target, &centre) > 1 {
                 counts.overlap += problem.points_per_cell;
             }
-            match geometry.owner(&problem.target, &centre) {
-                Owner::Target => counts.target += problem.points_per_cell,
+            match geometry.owner(problem, &centre) {
+                Owner::Target | Owner::Inclusion => counts.target += problem.points_per_cell,
                 Owner::Outside => counts.bulk += problem.points_per_cell,
                 Owner::Layer(name, kind) => {
                     let mut layers = counts.layers.iter_mut();

@@ -96,8 +96,8 @@ pub(super) fn iterations<const D: usize>(problem: &Problem<D>, h: &Vector<D>) ->
     let least = h.iter().copied().fold(f64::INFINITY, f64::min);
     let courant = |speed: f64| (speed * problem.dt / least).powi(2);
     let (p, s) = (
-        courant(problem.material.p_speed()),
-        courant(problem.material.s_speed()),
+        courant(problem.stiffest().p_speed()),
+        courant(problem.stiffest().s_speed()),
     );
     let (blur, stiff) = symbols(problem.basis);
     let inertia = match problem.mass {

@@ -9,6 +9,7 @@ mod explicit_errors;
 mod explicit_point_source;
 mod explicit_transfer;
 mod goodness;
+mod inclusion;
 mod lamb;
 mod mudmat;
 mod mutations;

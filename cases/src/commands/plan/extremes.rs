@@ -71,6 +71,9 @@ const ASPECTS: [f64; 5] = [0.05, 0.2, 2.0, 5.0, 20.0];
 /// Distances of points from cells' faces, over cells' edges: hardly inside, and hardly apart.
 const FACE_GAPS: [f64; 3] = [1e-9, 1e-3, 0.499_999_999];
 
+/// Stiffness of the middle third of the body over that of all else.
+const CONTRASTS: [f64; 4] = [1e-6, 1e-3, 1e3, 1e6];
+
 /// Steps of the long run: under the gate's profile, and else.
 const LONG: [f64; 2] = [2000.0, 100_000.0];
 
@@ -115,6 +118,14 @@ pub(super) fn stability(options: &Options) -> Result<Plan, CaseError> {
     let per_cell =
         PER_CELL.map(|n| named(format!("{n} a cell"), vec![format!("points.per_cell={n}")]));
     add("points in a cell", &methods, per_cell.to_vec())?;
+    if has(&base, "material.inclusion") {
+        let contrasts = numbers("contrast", "material.inclusion", &CONTRASTS);
+        add(
+            "contrast of stiffness: the middle over the rest",
+            &methods,
+            contrasts,
+        )?;
+    }
     let aspects = numbers("aspect", "grid.aspect", &ASPECTS);
     add("edges of a cell along x over y", &methods, aspects)?;
     add(

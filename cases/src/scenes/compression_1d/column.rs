@@ -78,6 +78,9 @@ pub(super) fn references(scene: &Compression1d, times: &[f64]) -> Result<Vec<Ref
             ));
         }
     }
+    if let Some(reason) = two_stiffnesses(scene) {
+        return Err(reason);
+    }
     let mut references = vec![series(
         scene,
         times,
@@ -285,6 +288,9 @@ fn overlap(scene: &Compression1d, receiver: &ReceiverSpec) -> Option<String> {
 
 /// Why a claim does not apply to this receiver of the scene as it stands.
 fn not_here(scene: &Compression1d, receiver: &ReceiverSpec, evidence: Evidence) -> Option<String> {
+    if let Some(reason) = two_stiffnesses(scene) {
+        return Some(reason);
+    }
     let layer = inner_thickness(&scene.boundary.bottom);
     if layer > 0.0 && receiver.y_m <= layer {
         return Some(format!(
@@ -314,6 +320,14 @@ fn not_here(scene: &Compression1d, receiver: &ReceiverSpec, evidence: Evidence) 
     (cells < CELLS || courant > most).then(|| {
         format!("stated for at least {CELLS} cells a pulse and Courant numbers of at most {most:.3}, not for {cells:.1} and {courant:.3}")
     })
+}
+
+/// Why d'Alembert does not hold where waves come back from within.
+fn two_stiffnesses(scene: &Compression1d) -> Option<String> {
+    let ratio = scene.material.inclusion?;
+    Some(format!(
+        "d'Alembert's column has one stiffness, here material.inclusion is {ratio}"
+    ))
 }
 
 /// Why d'Alembert does not hold, where points move too far.

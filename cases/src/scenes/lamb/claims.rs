@@ -163,6 +163,11 @@ fn obstacle(scene: &Lamb) -> Option<String> {
             ));
         }
     }
+    if let Some(ratio) = scene.material.inclusion {
+        return Some(format!(
+            "stated for one stiffness; here material.inclusion is {ratio}"
+        ));
+    }
     let points = &scene.points;
     if ![Transfer::Keep, Transfer::Affine].contains(&points.transfer) {
         return Some(

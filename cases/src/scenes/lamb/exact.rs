@@ -56,6 +56,11 @@ pub(super) fn references(
             scene.boundary.top.method
         ));
     }
+    if let Some(ratio) = scene.material.inclusion {
+        return Err(format!(
+            "Lamb's half-space has one stiffness, here material.inclusion is {ratio}"
+        ));
+    }
     let no_echo = Reference {
         name: NAME,
         role: Role::NoEcho,

@@ -137,6 +137,7 @@ fn echo_depth(scene: &PipePenetration) -> Result<f64, String> {
         youngs_modulus,
         nu,
         rho_kg_m3,
+        ..
     } = scene.material.elastic;
     let soil = Elastic::new(youngs_modulus, nu, rho_kg_m3).map_err(|error| error.to_string())?;
     let impact = Impact::new(&soil, scene.pipe.velocity_m_s).map_err(|error| error.to_string())?;
