@@ -57,6 +57,11 @@ pub trait Scene: Debug + Send + Sync {
         None
     }
 
+    /// Do its own norms need the extended run of the same mesh, wherever a method is run?
+    fn needs_extended(&self) -> bool {
+        false
+    }
+
     /// What is measured of a run by the scene's own norms, beside others of the same study.
     fn measures(&self, _run: &Record, _beside: &Beside<'_>) -> Vec<OwnNumber> {
         Vec::new()

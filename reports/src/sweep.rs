@@ -32,6 +32,9 @@ pub struct SweepEntry {
     pub worst: Option<f64>,
     /// What is left late in the run at one receiver.
     pub late: Option<Range>,
+    /// Numbers that the scene's claims are of, `METRIC PLACE`: what a scene without echoes is judged by.
+    #[serde(default)]
+    pub claimed: Vec<(String, Option<f64>)>,
     /// CPU time (s).
     pub cpu_s: Option<f64>,
     /// Steps made.
@@ -117,6 +120,25 @@ impl SweepPart {
         names
     }
 
+    /// Names of the numbers that the scene claims, of all entries that have one.
+    fn claimed(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        let entries = self.points.iter().flat_map(|point| &point.entries);
+        let known = entries.flat_map(|entry| &entry.claimed);
+        for (name, _) in known.filter(|(_, value)| value.is_some()) {
+            if !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// Was anything looked at late in a run?
+    fn has_late(&self) -> bool {
+        let mut entries = self.points.iter().flat_map(|point| &point.entries);
+        entries.any(|entry| entry.late.is_some())
+    }
+
     /// The numbers of a method over the points that have one: (value, number).
     pub fn curve(
         &self,
@@ -156,8 +178,13 @@ impl SweepPart {
     }
 }
 
-/// A run's entry, from its rows.
-pub fn entry(method: &str, rows: &[Row], late: Option<Range>) -> SweepEntry {
+/// A run's entry, from its rows; `claims` are metrics and places.
+pub fn entry(
+    method: &str,
+    rows: &[Row],
+    claims: &[(String, String)],
+    late: Option<Range>,
+) -> SweepEntry {
     let own = || rows.iter().filter(|row| row.method == method);
     let cost = |metric: &str| {
         let mut found = own().filter(|row| row.metric == metric && row.place == RUN);
@@ -175,11 +202,17 @@ pub fn entry(method: &str, rows: &[Row], late: Option<Range>) -> SweepEntry {
             worst = worst.into_iter().chain(row.value).reduce(f64::max);
         }
     }
+    let claimed = claims.iter().map(|(metric, place)| {
+        let mut found = own().filter(|row| row.metric == *metric && row.place == *place);
+        let value = found.next().and_then(|row| row.value);
+        (format!("{metric} {place}"), value)
+    });
     SweepEntry {
         method: method.to_owned(),
         echo,
         worst,
         late,
+        claimed: claimed.collect(),
         cpu_s: cost("cpu_s"),
         steps: cost("steps"),
         unknowns: cost("unknowns"),
@@ -187,35 +220,83 @@ pub fn entry(method: &str, rows: &[Row], late: Option<Range>) -> SweepEntry {
     }
 }
 
+/// A column of a part's table: its head and what it shows of a run.
+type Shown = (String, Box<dyn Fn(&SweepEntry) -> String>);
+
+/// The columns behind point and method: echoes where there are some, else what the scene claims; then
+/// what is left late, and cost.
+fn columns(part: &SweepPart) -> Vec<Shown> {
+    fn number(head: &str, of: impl Fn(&SweepEntry) -> Option<f64> + 'static) -> Shown {
+        let text = move |entry: &SweepEntry| of(entry).map_or("–".to_owned(), format::number);
+        (head.to_owned(), Box::new(text))
+    }
+    let groups = part.groups();
+    let mut all: Vec<Shown> = Vec::new();
+    for group in &groups {
+        let name = (*group).to_owned();
+        all.push(number(group, move |entry| {
+            let echo = entry.echo.iter().find(|(own, _)| *own == name);
+            echo.and_then(|(_, e)| e.clone().ok())
+        }));
+    }
+    if groups.is_empty() {
+        for head in part.claimed() {
+            let name = head.to_owned();
+            all.push(number(head, move |entry| {
+                let own = entry.claimed.iter().find(|(own, _)| *own == name);
+                own.and_then(|(_, value)| *value)
+            }));
+        }
+    } else {
+        all.push(number("mean", SweepEntry::mean));
+        all.push(number("worst", |entry| entry.worst));
+    }
+    if part.has_late() {
+        all.push(number("late mean", |entry| entry.late.map(|l| l.mean)));
+        all.push(number("late max", |entry| entry.late.map(|l| l.max)));
+    }
+    all.push(number("CPU s", |entry| entry.cpu_s));
+    let memory = |entry: &SweepEntry| entry.peak_bytes.map_or("–".to_owned(), format::bytes);
+    all.push(("memory".to_owned(), Box::new(memory)));
+    all
+}
+
 /// Heads of a part's table.
 pub fn head(part: &SweepPart) -> Vec<String> {
-    let mut head = vec!["point".to_owned(), "method".to_owned()];
-    head.extend(part.groups().iter().map(|group| (*group).to_owned()));
-    head.extend(["mean", "worst", "late mean", "late max", "CPU s", "memory"].map(str::to_owned));
-    head
+    let fixed = ["point", "method"].map(str::to_owned);
+    let columns = columns(part).into_iter().map(|(head, _)| head);
+    fixed.into_iter().chain(columns).collect()
 }
 
 /// Cells of a part's table, as texts under [`head`].
 pub fn cells(part: &SweepPart) -> Vec<Vec<String>> {
-    let text = |value: Option<f64>| value.map_or("–".to_owned(), format::number);
+    let columns = columns(part);
     let mut rows = Vec::new();
     for point in &part.points {
         for entry in &point.entries {
             let mut row = vec![point.label.clone(), entry.method.clone()];
-            for group in part.groups() {
-                let echo = entry.echo.iter().find(|(name, _)| name == group);
-                row.push(text(echo.and_then(|(_, e)| e.clone().ok())));
-            }
-            row.push(text(entry.mean()));
-            row.push(text(entry.worst));
-            row.push(text(entry.late.map(|late| late.mean)));
-            row.push(text(entry.late.map(|late| late.max)));
-            row.push(text(entry.cpu_s));
-            row.push(entry.peak_bytes.map_or("–".to_owned(), format::bytes));
+            row.extend(columns.iter().map(|(_, text)| text(entry)));
             rows.push(row);
         }
     }
     rows
+}
+
+/// What a part's table shows.
+pub fn caption(part: &SweepPart) -> String {
+    let mut said: Vec<String> = Vec::new();
+    if !part.groups().is_empty() {
+        said.push("echo ratio of each group (mean), and of all".to_owned());
+    } else if !part.claimed().is_empty() {
+        said.push("what the scene's claims are of: metric and place".to_owned());
+    }
+    if part.has_late() {
+        said.push(format!(
+            "late: displacement at {} after t1 (m)",
+            part.late_at
+        ));
+    }
+    said.join("; ")
 }
 
 #[cfg(test)]
@@ -231,6 +312,7 @@ mod tests {
                 echo: vec![("A".into(), Ok(*echo)), ("B".into(), Ok(2.0 * echo))],
                 worst: None,
                 late: None,
+                claimed: Vec::new(),
                 cpu_s: Some(2.0),
                 steps: Some(500.0),
                 unknowns: None,
@@ -253,6 +335,21 @@ mod tests {
         assert_eq!(part(&[0.8, 0.1, 0.2]).largest_rise("pml", "B"), Ok(2.0));
         assert!(part(&[0.8]).largest_rise("pml", "A").is_err());
         assert!(part(&[0.8, 0.4]).largest_rise("dashpot", "A").is_err());
+    }
+
+    #[test]
+    fn a_scene_without_echoes_shows_what_it_claims() {
+        let mut part = part(&[0.2, 0.1]);
+        assert!(!head(&part).contains(&"resistance w".to_owned()));
+        for entry in part.points.iter_mut().flat_map(|p| &mut p.entries) {
+            entry.echo.clear();
+            let known = ("resistance w".to_owned(), Some(2.5));
+            entry.claimed = vec![known, ("unknown w".to_owned(), None)];
+        }
+        let shown = ["point", "method", "resistance w", "CPU s", "memory"];
+        assert_eq!(head(&part), shown);
+        assert_eq!(cells(&part)[0][2], "2.50");
+        assert!(caption(&part).contains("claims"));
     }
 
     #[test]

@@ -200,10 +200,7 @@ pub fn sweep_table(sweep: &Sweep) -> String {
         for row in sweep::cells(part) {
             table.add_row(row);
         }
-        let note = format!(
-            "echo ratio of each group; late: displacement at {} after t1 (m)\n\n",
-            part.late_at
-        );
+        let note = sweep::caption(part) + "\n\n";
         text += &format!("{}\n{}", part.title, finish(&table, &note));
     }
     text

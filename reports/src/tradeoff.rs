@@ -293,6 +293,7 @@ mod tests {
                 echo: vec![("A".into(), echo.ok_or("it failed".to_owned()))],
                 worst: *echo,
                 late: None,
+                claimed: Vec::new(),
                 cpu_s: Some(*cpu),
                 steps: Some(10.0),
                 unknowns: Some(5.0),

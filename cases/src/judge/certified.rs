@@ -15,8 +15,12 @@ const NAME: &str = "extended-run";
 
 /// The run that certifies the others, if the study has it.
 pub(super) fn certifier<'a>(runs: &[&'a Run]) -> Option<&'a Run> {
-    let mut runs = runs.iter().copied();
-    runs.find(|run| run.manifest.method == CERTIFIER && run.complete())
+    runs.iter().copied().find(|run| certifies(run))
+}
+
+/// Is it an extended run?
+pub(super) fn certifies(run: &Run) -> bool {
+    run.manifest.method == CERTIFIER && run.complete()
 }
 
 /// Residuals of a run against the extended one, where a claim asks for them; of the extended run

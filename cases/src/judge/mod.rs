@@ -108,7 +108,7 @@ fn measured(run: &Run, runs: &[&Run], references: &References) -> Measured {
         Status::Complete => {
             let extended = certified::certifier(runs);
             missing.extend(certified::measure(run, extended, &mut numbers).err());
-            own_norms(run, runs, extended, &mut numbers);
+            own_norms(run, runs, &mut numbers);
             let first = runs.first().is_some_and(|first| std::ptr::eq(*first, run));
             measure(run, references, standard_of(run, runs), first, &mut numbers)
                 .and_then(|()| foreign::recognised(run, &mut numbers))
@@ -129,16 +129,18 @@ fn measured(run: &Run, runs: &[&Run], references: &References) -> Measured {
 }
 
 /// What is measured by the scene's own norms.
-fn own_norms(run: &Run, runs: &[&Run], extended: Option<&Run>, numbers: &mut Vec<Measurement>) {
+fn own_norms(run: &Run, runs: &[&Run], numbers: &mut Vec<Measurement>) {
     let scene = run.prepared.scene.as_ref();
     let end = run.record.receivers.times.last().copied().unwrap_or(0.0);
+    // of several extended runs one that is long enough
     let serves = |other: &&Run| {
         let until = other.prepared.scene.serves_until_s();
-        until.is_some_and(|until| end <= until)
+        certified::certifies(other) && until.is_some_and(|until| end <= until)
     };
+    let extended = runs.iter().copied().find(serves);
     let beside = Beside {
         standard: standard_of(run, runs).map(|run| &run.record),
-        extended: extended.filter(serves).map(|run| &run.record),
+        extended: extended.map(|run| &run.record),
     };
     let own = scene.measures(&run.record, &beside);
     numbers.extend(own.into_iter().map(|number| Measurement {

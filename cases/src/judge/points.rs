@@ -60,8 +60,13 @@ fn judge_part(
             judged
                 .notes
                 .extend(grows.map(|why| format!("{}: {why}", point.label)));
-            let numbers: Vec<Measurement> =
-                measured.numbers.into_iter().filter(of_a_group).collect();
+            let claimed = claimed(run);
+            let is_claimed = |n: &Measurement| {
+                let mut claims = claimed.iter();
+                claims.any(|(metric, place)| n.metric == *metric && n.place == *place)
+            };
+            let mut numbers = measured.numbers;
+            numbers.retain(|n| of_a_group(n) || is_claimed(n));
             let rows = rows_of(run, names_of(run), &numbers, Vec::new(), None);
             let late = late(run, references);
             if let Some((at, _, reference)) = &late {
@@ -71,7 +76,7 @@ fn judge_part(
             let own_late = late.map(|(_, own, _)| own);
             shown
                 .entries
-                .push(entry(&run.manifest.method, &rows, own_late));
+                .push(entry(&run.manifest.method, &rows, &claimed, own_late));
             judged.rows.extend(rows.into_iter().map(|row| Row {
                 place: at_point(&row.place, point),
                 ..row
@@ -87,6 +92,13 @@ fn judge_part(
         late_at,
         points,
     }
+}
+
+/// Metrics and places of the scene's claims on a run's method.
+fn claimed(run: &Run) -> Vec<(String, String)> {
+    let claims = run.prepared.scene.claims().into_iter().map(|c| c.claim);
+    let own = claims.filter(|claim| run.manifest.judged_as() == Some(&claim.method));
+    own.map(|claim| (claim.metric, claim.place)).collect()
 }
 
 /// The place of a number at a point.

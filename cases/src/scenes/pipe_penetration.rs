@@ -272,8 +272,12 @@ impl Scene for PipePenetration {
         });
     }
 
+    fn needs_extended(&self) -> bool {
+        !claims::is_slow(self)
+    }
+
     fn measures(&self, run: &Record, beside: &Beside<'_>) -> Vec<OwnNumber> {
-        claims::numbers(self, run, beside.extended)
+        claims::numbers(self, run, beside)
     }
 
     /// Until a wave from the pipe can be back from the outer ends.

@@ -91,7 +91,7 @@ pub struct Point {
     /// Methods that the program refuses there, and why.
     #[serde(default)]
     pub refused: Vec<(String, String)>,
-    /// Folders of the standard runs, over which echoes are taken.
+    /// Folders of the runs that these are set beside: the standard ones, over which echoes are taken.
     pub standards: Vec<PathBuf>,
 }
 

@@ -259,10 +259,7 @@ fn sweep(sweep: &Sweep) -> Markup {
             h2 { "Points" }
             @for part in &sweep.parts {
                 h3 { (part.title) }
-                p.soft {
-                    "Echo ratio of each group of receivers (mean), and of all; displacement (m) at "
-                    code { (part.late_at) } " once echoes are looked for."
-                }
+                p.soft { (crate::sweep::caption(part)) }
                 (tables::texts(&crate::sweep::head(part), &crate::sweep::cells(part), 2))
             }
         }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a gate fails by panicking")]
 
-use anechoic::commands::{Options, run};
+use anechoic::commands::{self, Options, run};
 use anechoic_reference::analytic::slip_line::{Interface, bearing_factor, merifield_smooth};
 use anechoic_tests::study::{claims, compared, failing, print_claims, value};
 
@@ -33,6 +33,29 @@ fn the_bases_echo_comes_in_time_and_absorbers_take_it() {
         let inside = of(method, "penetration_cells");
         assert!(inside < 0.2, "{method}: {inside} cells inside the pipe");
     }
+}
+
+/// What the paper's 5 % takes of a damping layer: four times its thickness, a free end. A sweep tells it
+/// beside the extended run of each point (certified), and thinner ones leave more.
+#[test]
+fn a_damping_layer_of_four_metres_meets_five_per_cent() {
+    let out = tempfile::tempdir().unwrap();
+    let options = Options::new("pipe-penetration", out.path())
+        .profile("gate")
+        .method("damping-layer-thick");
+    let over = ["damping-layer.thickness_m=1,2,4".to_owned()];
+    let plan = commands::plan_sweep(&options, &over).unwrap();
+    let finished = commands::execute(plan, &options).unwrap();
+    let of = |metric: &str, metres: u32| {
+        let place = format!("pipe@damping-layer.thickness_m={metres}");
+        value(&finished.rows, "damping-layer-thick", metric, &place)
+    };
+    let left = [1, 2, 4].map(|metres| of("fluctuation", metres));
+    println!("fluctuation behind 1, 2, 4 m: {left:.4?}");
+    assert!(left[0] > 2.0 * left[1] && left[0] > 0.1 && left[2] < 0.05);
+    assert!(of("echo_ratio", 1) > of("fluctuation", 1));
+    // three layers beside one run of rollers and one of soil that goes on
+    assert_eq!(finished.study.runs.len(), 5);
 }
 
 /// A push at 0.4 m/s, whose rho v^2 is 4 % of s_u, to w/D = 0.1, 0.2, 0.3: slip lines without heave below

@@ -5,6 +5,7 @@ use crate::certified::key;
 use crate::commands::Options;
 use crate::error::{CaseError, Origin};
 use crate::filter::Filter;
+use crate::judge::CERTIFIER;
 use crate::prepare::{Prepared, Request, Target};
 use crate::resume::folder;
 use crate::study::Kind;
@@ -166,7 +167,7 @@ impl Points {
         Ok(part)
     }
 
-    /// Adds a method's run to a point, and the standard run that goes with it.
+    /// Adds a method's run to a point, and what it is set beside.
     fn member(
         &mut self,
         point: &mut Point,
@@ -174,9 +175,9 @@ impl Points {
         method: &str,
         setting: &Setting,
     ) -> Result<(), CaseError> {
-        let mut request = request.clone();
-        request.sets.extend(setting.sets.iter().cloned());
-        let target = Target::find(&request)?;
+        let mut own = request.clone();
+        own.sets.extend(setting.sets.iter().cloned());
+        let target = Target::find(&own)?;
         let scene = match target.prepare(Some(method)) {
             Ok(scene) => scene,
             Err(error) => {
@@ -193,15 +194,18 @@ impl Points {
                 self.used.insert(set.clone());
             }
         }
-        let standard = match self.alone {
-            true => None,
-            false => standard(&target, &scene),
+        let beside = match self.alone {
+            true => [None, None],
+            false => [
+                standard(&target, &scene),
+                judge_of(&scene, request, setting)?,
+            ],
         };
         point.runs.push(self.add(scene));
-        if let Some(standard) = standard {
-            let standard = self.add(standard);
-            if !point.standards.contains(&standard) {
-                point.standards.push(standard);
+        for other in beside.into_iter().flatten() {
+            let other = self.add(other);
+            if !point.standards.contains(&other) {
+                point.standards.push(other);
             }
         }
         Ok(())
@@ -238,6 +242,23 @@ fn refused(error: &CaseError) -> Option<String> {
     let of_method = complaints.iter().all(|c| c.field.starts_with("boundary."));
     let first = complaints.first().filter(|_| of_method)?;
     Some(first.message.clone())
+}
+
+/// The extended run of a point, where the scene's own norms need it. What the point varies of extended
+/// sides is the business of the run that is judged, not of its judge.
+fn judge_of(
+    scene: &Prepared,
+    request: &Request,
+    setting: &Setting,
+) -> Result<Option<Prepared>, CaseError> {
+    if !scene.scene.needs_extended() {
+        return Ok(None);
+    }
+    let mut request = request.clone();
+    let own = format!("{CERTIFIER}.");
+    let others = setting.sets.iter().filter(|set| !set.starts_with(&own));
+    request.sets.extend(others.cloned());
+    Ok(Target::find(&request)?.prepare(Some(CERTIFIER)).ok())
 }
 
 /// The standard run of the same discretisation: of the standard method, or of a variant of it.

@@ -4,7 +4,7 @@
 //! over a window of its depth: the force of a single step is that of single nodes.
 
 use super::PipePenetration;
-use crate::scene::{Curve, OwnNumber, OwnPicture, SceneClaim};
+use crate::scene::{Beside, Curve, OwnNumber, OwnPicture, SceneClaim};
 use crate::spec::MaterialSpec;
 use anechoic_reference::analytic::elastic::Elastic;
 use anechoic_reference::analytic::impact::Impact;
@@ -49,7 +49,7 @@ impl Resistance {
 }
 
 /// Is the push slow enough for a plastic solution without inertia?
-fn is_slow(scene: &PipePenetration) -> bool {
+pub(super) fn is_slow(scene: &PipePenetration) -> bool {
     let v = scene.pipe.velocity_m_s;
     scene.material.elastic.rho_kg_m3 * v * v < 0.05 * scene.material.strength
 }
@@ -58,7 +58,7 @@ fn is_slow(scene: &PipePenetration) -> bool {
 pub(super) fn numbers(
     scene: &PipePenetration,
     run: &Record,
-    extended: Option<&Record>,
+    beside: &Beside<'_>,
 ) -> Vec<OwnNumber> {
     let Some(own) = Resistance::of(scene, run) else {
         return Vec::new();
@@ -106,18 +106,21 @@ pub(super) fn numbers(
         put("penetration_cells", "pipe".to_owned(), Ok(deepest), None);
     }
     if !is_slow(scene)
-        && let Some(other) = extended.and_then(|r| Resistance::of(scene, r))
+        && let Some(other) = beside.extended.and_then(|r| Resistance::of(scene, r))
     {
         let against = Some((Evidence::Certified, "extended-run"));
         let depths: Vec<f64> = own.depth.clone();
         let pair = (own.force.as_slice(), other.force.as_slice());
-        let largest = largest_departure(&depths, pair, SETTLED, WINDOW);
-        put(
-            "fluctuation",
-            "pipe".to_owned(),
-            largest.map_err(|e| e.to_string()),
-            against,
-        );
+        let swing = |force: &[f64]| {
+            let pair = (force, other.force.as_slice());
+            largest_departure(&depths, pair, SETTLED, WINDOW).map_err(|e| e.to_string())
+        };
+        let largest = swing(&own.force);
+        put("fluctuation", "pipe".to_owned(), largest.clone(), against);
+        if let Some(standard) = beside.standard.and_then(|r| Resistance::of(scene, r)) {
+            let echo = largest.and_then(|own| Ok(own / swing(&standard.force)?));
+            put("echo_ratio", "pipe".to_owned(), echo, against);
+        }
         let first = first_departure(&depths, pair, FINE, DEPARTED);
         if let Ok(Some(depth)) = first {
             put(
@@ -223,7 +226,12 @@ pub(super) fn claims(scene: &PipePenetration) -> Vec<SceneClaim> {
         return claims;
     }
     let certified = Evidence::Certified;
-    for (method, most) in [("dashpot", 0.05), ("damping-layer", 0.05), ("pml", 0.02)] {
+    for (method, most) in [
+        ("dashpot", 0.05),
+        ("damping-layer", 0.05),
+        ("damping-layer-thick", 0.05),
+        ("pml", 0.02),
+    ] {
         claim(
             method,
             "fluctuation",

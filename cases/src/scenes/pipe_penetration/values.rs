@@ -68,6 +68,13 @@ pub(super) const METHODS: &[Overlay] = &[
         boundary.bottom = { method = 'damping-layer', thickness_m = 1.0, sigma_max_per_s = 227.0, power = 1.0, end = 'roller' }",
     ),
     Overlay::new(
+        "damping-layer-thick",
+        "4 m of it, growing with the square to 227/s, its end free: what the paper's 5 % takes",
+        "boundary.right = { method = 'damping-layer', thickness_m = 4.0, sigma_max_per_s = 227.0, power = 2.0, end = 'free' }
+        boundary.bottom = { method = 'damping-layer', thickness_m = 4.0, sigma_max_per_s = 227.0, power = 2.0, end = 'free' }",
+    )
+    .on_request(),
+    Overlay::new(
         "damping-layer-printed",
         "the same as printed, alpha = 0.005 a step: as strong as steps are short",
         "boundary.right = { method = 'damping-layer', thickness_m = 1.0, form = 'printed', alpha_per_m = 0.005, end = 'roller' }
