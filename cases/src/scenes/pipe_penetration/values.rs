@@ -41,11 +41,15 @@ pub(super) const PROFILES: &[Overlay] = &[
 ];
 
 /// Other loads.
-pub(super) const PRESETS: &[Overlay] = &[Overlay::new(
-    "slow",
-    "0.1 m/s: quasi-static",
-    "pipe.velocity_m_s = 0.1",
-)];
+pub(super) const PRESETS: &[Overlay] = &[
+    Overlay::new("slow", "0.1 m/s: quasi-static", "pipe.velocity_m_s = 0.1"),
+    Overlay::new(
+        "slow-scaled",
+        "the same with four times the density: half the steps",
+        "pipe.velocity_m_s = 0.1
+        material.rho_kg_m3 = 2600.0",
+    ),
+];
 
 /// Boundary methods: what the right side and the base are made of.
 pub(super) const METHODS: &[Overlay] = &[
