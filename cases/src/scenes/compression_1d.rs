@@ -18,6 +18,7 @@
 //!   leaves a lasting displacement, which no echo is.
 
 mod column;
+mod layer;
 mod paper;
 mod values;
 
@@ -94,7 +95,7 @@ pub static INFO: SceneInfo = SceneInfo {
     presets: values::PRESETS,
     methods: values::METHODS,
     ablation: &[],
-    sweeps: &[],
+    sweeps: &[&layer::S21_LAYER],
     ledger: paper::LEDGER,
     standard: "fixed",
     defaults: scene::defaults::<Compression1d>,

@@ -297,3 +297,25 @@ fn what_grows_is_found_and_what_is_refused_is_named() {
         }
     }
 }
+
+/// S21's layer damps by the step: of its echoes at four steps the least is at the step that it was made for,
+/// and shorter ones leave half as much again; as a rate it leaves the same at all (closed forms of both are
+/// in `damping_form`).
+#[test]
+fn the_printed_layers_echo_depends_on_the_step_and_the_rates_does_not() {
+    let out = tempfile::tempdir().unwrap();
+    let options = Options::new("s21-layer/step", out.path()).profile("gate");
+    let options = NARROW.iter().fold(options, |options, set| options.set(set));
+    let plan = commands::plan_sweep(&options, &[]).unwrap();
+    let rows = commands::execute(plan, &options).unwrap().rows;
+    let echoes = |form: &str| {
+        ["0.0127", "0.00636", "0.00318", "0.00159"].map(|dt| {
+            let place = format!("A@damping-layer.form={form},time.dt_s={dt}");
+            value(&rows, "damping-layer", "echo_ratio", &place)
+        })
+    };
+    let (printed, rate) = (echoes("printed"), echoes("rate"));
+    println!("printed {printed:.3?}, rate {rate:.3?}");
+    assert!(printed[3] > 1.5 * printed[1]);
+    assert!(rate.iter().all(|r| (r / rate[1] - 1.0).abs() < 0.05));
+}
