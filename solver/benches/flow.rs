@@ -8,6 +8,7 @@
 use anechoic_solver::flow::{Carry, Constitution, Dimension, Flow, NodeSums, Space, Start};
 use anechoic_solver::grid::Grid;
 use anechoic_solver::material::linear_elastic::LinearElastic;
+use anechoic_solver::material::von_mises::VonMises;
 use anechoic_solver::problem::{BasisKind, Elastic};
 use anechoic_solver::tensor::Vector;
 use cpu_time::ThreadTime;
@@ -142,6 +143,8 @@ fn rates(c: &mut Criterion) {
     let triad = triad();
     println!("triad {:.2} GB/s", triad * 1e-9);
     let elastic = Constitution::LinearElastic(LinearElastic::new(&ELASTIC));
+    // a strength that the points' motion reaches within some steps
+    let von_mises = Constitution::VonMises(VonMises::new(&ELASTIC, 1e-3 * ELASTIC.youngs_modulus));
     let mut group = c.benchmark_group("flow");
     group.sample_size(10);
     for (name, basis, law, carry) in [
@@ -161,6 +164,12 @@ fn rates(c: &mut Criterion) {
             "gimp elastic affine",
             BasisKind::Gimp,
             elastic,
+            Carry::Affine,
+        ),
+        (
+            "gimp von-mises affine",
+            BasisKind::Gimp,
+            von_mises,
             Carry::Affine,
         ),
         (
