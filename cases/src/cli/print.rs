@@ -57,6 +57,8 @@ pub fn list(scenes: &[&SceneInfo], format: Format) -> Result<String, CaseError> 
         let cases: Vec<Value> = scenes
             .iter()
             .map(|scene| {
+                let sweeps = scene.sweeps.iter();
+                let sweeps = sweeps.map(|s| json!({"name": s.name, "summary": s.summary}));
                 json!({
                     "case": scene.name,
                     "title": scene.title,
@@ -64,6 +66,7 @@ pub fn list(scenes: &[&SceneInfo], format: Format) -> Result<String, CaseError> 
                     "profiles": names(scene.profiles),
                     "presets": names(scene.presets),
                     "methods": names(scene.methods),
+                    "sweeps": sweeps.collect::<Vec<_>>(),
                 })
             })
             .collect();
@@ -85,6 +88,12 @@ pub fn list(scenes: &[&SceneInfo], format: Format) -> Result<String, CaseError> 
             for overlay in overlays {
                 let _ = writeln!(text, "      {:<14} {}", overlay.name, overlay.summary);
             }
+        }
+        if !scene.sweeps.is_empty() {
+            let _ = writeln!(text, "    sweeps");
+        }
+        for sweep in scene.sweeps {
+            let _ = writeln!(text, "      {:<14} {}", sweep.name, sweep.summary);
         }
     }
     text.push_str("\nMethods of a side (boundary.SIDE.method)\n");

@@ -40,7 +40,7 @@ Examples:
 
 /// Of `sweep`.
 pub const SWEEP_EXAMPLES: &str = "\
-The scene is a case, a file, or a named sweep: appendix-a, or a part of it, as appendix-a/thickness.
+The scene is a case, a file, or a named sweep (`list` has all): appendix-a, or a part of it, as appendix-a/thickness.
 
 Examples:
   anechoic sweep point-source --over pml.thickness_m=100..400:100
@@ -48,6 +48,7 @@ Examples:
   anechoic sweep compression-1d --over grid.h_m=2,1 --over dashpot.impedance=0.5,1,2
   anechoic sweep point-source --method pml-stretched \\
     --over pml-stretched.alpha=0.8..4:0.8/pml-stretched.thickness_m=200..1000:200
+  anechoic sweep s21-layer                            the printed damping layer of S21
   anechoic sweep appendix-a --dry-run                 all points of K25, Appendix A";
 
 /// Of `tradeoff`.
