@@ -126,8 +126,11 @@ pub(super) fn stability(options: &Options) -> Result<Plan, CaseError> {
             contrasts,
         )?;
     }
-    let aspects = numbers("aspect", "grid.aspect", &ASPECTS);
-    add("edges of a cell along x over y", &methods, aspects)?;
+    add(
+        "edges of a cell along x over y",
+        &methods,
+        aspects(base.scene.cell_m()),
+    )?;
     add(
         "points near cells' faces, over edges",
         &methods,
@@ -179,6 +182,23 @@ fn numbers(name: &str, field: &str, values: &[f64]) -> Vec<Setting> {
         sets: vec![format!("{field}={value}")],
     };
     values.iter().map(setting).collect()
+}
+
+/// Cells longer than high and higher than long, as large as those of `h` (m) along both: the longer edge
+/// alone is stated, and cells of the same would be more by the ratio.
+fn aspects(h: f64) -> Vec<Setting> {
+    let setting = |aspect: &f64| {
+        let longer = h * aspect.max(1.0 / aspect).sqrt();
+        Setting {
+            label: format!("aspect={aspect}"),
+            value: Some(*aspect),
+            sets: vec![
+                format!("grid.aspect={aspect}"),
+                format!("grid.h_m={longer:.3}"),
+            ],
+        }
+    };
+    ASPECTS.iter().map(setting).collect()
 }
 
 /// Points at rest near faces, and points that go to and fro over them.
