@@ -2,7 +2,7 @@
 //! asks here, or matches once by [`either!`].
 
 use anechoic_solver::error::SolverError;
-use anechoic_solver::problem::{Drive, Elastic, Problem};
+use anechoic_solver::problem::{Aabb, Drive, Elastic, Problem};
 use anechoic_solver::wavelet::Pulse;
 use anechoic_solver::{Bill, Monitor, Outcome, bill, solve};
 
@@ -81,6 +81,15 @@ impl Posed {
     /// The material.
     pub fn material(&self) -> &Elastic {
         either!(self, problem => &problem.material)
+    }
+
+    /// Shortest edge of the body (m).
+    pub fn narrowest(&self) -> f64 {
+        fn of<const D: usize>(body: &Aabb<D>) -> f64 {
+            let edges = body.upper.iter().zip(&body.lower).map(|(u, l)| u - l);
+            edges.fold(f64::INFINITY, f64::min)
+        }
+        either!(self, problem => of(&problem.target))
     }
 
     /// What drives it, over time: forces or velocities.

@@ -126,11 +126,7 @@ pub(super) fn stability(options: &Options) -> Result<Plan, CaseError> {
             contrasts,
         )?;
     }
-    add(
-        "edges of a cell along x over y",
-        &methods,
-        aspects(base.scene.cell_m()),
-    )?;
+    add("edges of a cell along x over y", &methods, aspects(&base))?;
     add(
         "points near cells' faces, over edges",
         &methods,
@@ -184,11 +180,12 @@ fn numbers(name: &str, field: &str, values: &[f64]) -> Vec<Setting> {
     values.iter().map(setting).collect()
 }
 
-/// Cells longer than high and higher than long, as large as those of `h` (m) along both: the longer edge
-/// alone is stated, and cells of the same would be more by the ratio.
-fn aspects(h: f64) -> Vec<Setting> {
+/// Cells longer than high and higher than long, as large as the scene's unless the body is narrower: the
+/// longer edge alone is stated, and with that of the scene there would be more by the ratio.
+fn aspects(scene: &Prepared) -> Vec<Setting> {
+    let (h, most) = (scene.scene.cell_m(), scene.scene.posed().narrowest());
     let setting = |aspect: &f64| {
-        let longer = h * aspect.max(1.0 / aspect).sqrt();
+        let longer = (h * aspect.max(1.0 / aspect).sqrt()).min(most);
         Setting {
             label: format!("aspect={aspect}"),
             value: Some(*aspect),
