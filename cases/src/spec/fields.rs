@@ -2,18 +2,22 @@
 
 use crate::field::{Field, Kind, Range};
 
+const BASIS: Field = Field::new(
+    "basis",
+    Kind::Word(&["linear", "gimp", "bspline"]),
+    "shape functions on the grid",
+);
+
+const CELL: Field = Field::new(
+    "grid.h_m",
+    Kind::Number(Range::POSITIVE),
+    "largest edge of a cell (m); cells are fitted to the body",
+);
+
 /// Fields of discretisation of scenes whose points move in explicit steps and in no others.
 pub const FLOW_NUMERICS: &[Field] = &[
-    Field::new(
-        "basis",
-        Kind::Word(&["linear", "gimp", "bspline"]),
-        "shape functions on the grid",
-    ),
-    Field::new(
-        "grid.h_m",
-        Kind::Number(Range::POSITIVE),
-        "largest edge of a cell (m); cells are fitted to the body",
-    ),
+    BASIS,
+    CELL,
     Field::new("time.scheme", Kind::Word(&["explicit"]), "time integration"),
     Field::new(
         "time.courant",
@@ -58,16 +62,8 @@ pub const FLOW: &[Field] = &[
 
 /// Fields of discretisation and solver.
 pub const NUMERICS: &[Field] = &[
-    Field::new(
-        "basis",
-        Kind::Word(&["linear", "gimp", "bspline"]),
-        "shape functions on the grid",
-    ),
-    Field::new(
-        "grid.h_m",
-        Kind::Number(Range::POSITIVE),
-        "largest edge of a cell (m); cells are fitted to the body",
-    ),
+    BASIS,
+    CELL,
     Field::new(
         "grid.aspect",
         Kind::OptionalNumber(ASPECT, "left out: 1, square cells"),
