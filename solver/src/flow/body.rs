@@ -1,7 +1,7 @@
 //! The points of one region: a basis, a law, columns, and the passes over strips and blocks.
 
 use super::columns::{Columns, Part, Sorting};
-use super::fbar::{Cells, find_thin};
+use super::fbar::Cells;
 use super::fixed::{Fixed, Nodes};
 use super::lanes::Packed;
 use super::scatter::Run;
@@ -27,9 +27,6 @@ pub(super) struct Body<B, L: Law<D>, const D: usize> {
     strips: Strips,
     /// Where cells' divergences replace the points'.
     cells: Option<Cells>,
-    /// Cells in which they do not, by the masses of the step before, and those of the step to come; empty
-    /// where no cell's does.
-    thin: [Vec<bool>; 2],
     /// Steps since the points were sorted.
     age: usize,
     /// Has a point left its strip?
@@ -51,7 +48,6 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
         };
         let affine = start.carry == Carry::Affine;
         let cells = start.mean_volumes.then(|| Cells::new(&grid));
-        let none = vec![false; cells.as_ref().map_or(0, |cells| cells.values.len())];
         let mut body = Body {
             strips: Strips::new(&grid, B::WIDTH),
             fixed: Fixed {
@@ -73,16 +69,10 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
             },
             sorting: Sorting::default(),
             cells,
-            thin: [none.clone(), none],
             age: 0,
             strayed: AtomicBool::new(false),
         };
         body.sort()?;
-        if body.cells.is_some() {
-            // the first step has thin cells as well
-            let nodes = body.fixed.grid.node_count();
-            body.to_nodes(&mut NodeSums::new(nodes))?;
-        }
         Ok(body)
     }
 
@@ -126,7 +116,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
         let mut packed = [Packed::ZERO; BLOCK];
         for block in blocks(self.strips.points[strip]..self.strips.points[strip + 1]) {
             fixed.fill(&mut stencils, &columns.place[block.clone()])?;
-            fixed.pack(columns, &self.thin[0], block.clone(), out, &mut packed);
+            fixed.pack(columns, block.clone(), out, &mut packed);
             fixed.scatter(block.len(), &stencils, &packed, &mut run, out);
         }
         Ok(())
@@ -143,7 +133,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
         let cells = match &mut self.cells {
             Some(cells) if MOVE => {
                 cells.diverge(&fixed.grid, v);
-                Some((&cells.values[..], &self.thin[0][..]))
+                Some(&cells.values[..])
             }
             _ => None,
         };
@@ -199,15 +189,9 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
             cells.values.fill(0.0);
             &mut cells.values[..]
         });
-        // forces of a step and what its divergences are taken from have the same thin cells
-        self.thin.swap(0, 1);
         let done = self.scatter(Sums::all(out, sums));
         if let Some(cells) = &cells {
-            let grid = &self.fixed.grid;
-            cells.force(grid, &mut out.force);
-            let density = self.fixed.mass / self.fixed.volume;
-            let full = density * grid.h.iter().product::<f64>();
-            find_thin(grid, &out.mass, full, &mut self.thin[1]);
+            cells.force(&self.fixed.grid, &mut out.force);
         }
         self.cells = cells;
         done

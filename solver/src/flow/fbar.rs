@@ -13,12 +13,6 @@
 //! f_I = - sum_p V (tau - p I) grad N_I(x_p) - sum_c (sum_p V p) grad N_I(centre)
 //! ```
 //!
-//! A centre's gradients do not fall off with distance as the points' own do: where hardly any mass is at a
-//! corner of the cell, as above a surface and around what splashes, a force of this size would turn the
-//! node around within a step (`omega^2 = 2 c_p^2/(4 h^2) sum_I m/m_I` of a cell of mass m with corners m_I:
-//! without bound, where the points' own functions have 4 c_p^2/h^2). Such thin cells keep their points'
-//! divergences, forces and all: what is next to nothing locks nothing.
-//!
 //! In plane strain both traces are those in the plane. Cells are numbered by their lowest node.
 
 use super::lanes::Packed;
@@ -92,27 +86,6 @@ fn corners<const D: usize>(grid: &Grid<D>) -> [(usize, Vector<D>); 8] {
     })
 }
 
-/// A cell is thin if one of its nodes has less than this share of the mass of a full cell. With a tenth
-/// `omega < sqrt(20) c_p/h`, beyond Courant numbers of 0.44 even in a full cell.
-const THIN: f64 = 0.1;
-
-/// Finds the thin cells by the `mass` (kg) of the nodes, where full cells have `full` (kg).
-pub(super) fn find_thin<const D: usize>(
-    grid: &Grid<D>,
-    mass: &[f64],
-    full: f64,
-    thin: &mut Vec<bool>,
-) {
-    let corners = corners(grid);
-    let last = corners[(1 << D) - 1].0;
-    thin.clear();
-    thin.resize(mass.len(), true);
-    for (cell, thin) in thin.iter_mut().enumerate().take(mass.len() - last) {
-        let mut nodes = corners[..1 << D].iter();
-        *thin = nodes.any(|(offset, _)| mass[cell + offset] < THIN * full);
-    }
-}
-
 /// The cell of a point within the grid.
 #[inline]
 fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> usize {
@@ -123,42 +96,34 @@ fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> usize {
 }
 
 /// Takes the mean stresses of a block's points at `places` out of what is packed for the nodes and adds
-/// them to the cells from number `first` on, if those are not `thin`.
+/// them to the cells from number `first` on.
 pub(super) fn take_means<const D: usize>(
     grid: &Grid<D>,
     places: &[Vector<D>],
     packed: &mut [Packed<D>],
-    thin: &[bool],
-    (first, cells): (usize, &mut [f64]),
+    first: usize,
+    cells: &mut [f64],
 ) {
     for (x, packed) in places.iter().zip(packed) {
-        let cell = cell(grid, x);
-        if thin[cell] {
-            continue;
-        }
         let trace: f64 = (0..D).map(|d| packed.columns[d][1][d]).sum();
         let mean = trace / D as f64;
         for d in 0..D {
             packed.columns[d][1][d] -= mean;
         }
-        cells[cell - first] += mean;
+        cells[cell(grid, x) - first] += mean;
     }
 }
 
-/// Gives the points of a block at `places` the divergences of their cells, if those are not `thin`.
+/// Gives the points of a block at `places` the divergences of their cells.
 pub(super) fn give_divergences<const D: usize>(
     grid: &Grid<D>,
     places: &[Vector<D>],
     packed: &mut [Packed<D>],
-    (cells, thin): (&[f64], &[bool]),
+    cells: &[f64],
 ) {
     for (x, packed) in places.iter().zip(packed) {
-        let cell = cell(grid, x);
-        if thin[cell] {
-            continue;
-        }
         let trace: f64 = (0..D).map(|d| packed.columns[d][0][d]).sum();
-        let more = (cells[cell] - trace) / D as f64;
+        let more = (cells[cell(grid, x)] - trace) / D as f64;
         for d in 0..D {
             packed.columns[d][0][d] += more;
         }

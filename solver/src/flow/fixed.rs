@@ -42,8 +42,8 @@ pub(super) struct Nodes<'a, const D: usize> {
     pub v: &'a [Vector<D>],
     /// Accelerations (m/s2).
     pub a: &'a [Vector<D>],
-    /// Divergences of the cells (1/s), where they replace the points', and which cells are too thin for it.
-    pub cells: Option<(&'a [f64], &'a [bool])>,
+    /// Divergences of the cells (1/s), where they replace the points'.
+    pub cells: Option<&'a [f64]>,
     /// The step (s).
     pub dt: f64,
 }
@@ -58,12 +58,10 @@ impl<B: Basis, L, const D: usize> Fixed<B, L, D> {
 }
 
 impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
-    /// Packs what a block of points gives to the nodes; mean stresses go to the cells if asked for, but for
-    /// thin ones.
+    /// Packs what a block of points gives to the nodes; mean stresses go to the cells if asked for.
     pub fn pack(
         &self,
         columns: &Columns<L::State, D>,
-        thin: &[bool],
         block: Range<usize>,
         out: &mut Sums<'_, D>,
         packed: &mut [Packed<D>; BLOCK],
@@ -86,8 +84,7 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
             });
         }
         if let Some(cells) = &mut out.cells {
-            let places = &columns.place[block];
-            take_means(&self.grid, places, packed, thin, (out.first, cells));
+            take_means(&self.grid, &columns.place[block], packed, out.first, cells);
         }
     }
 

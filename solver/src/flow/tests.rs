@@ -9,14 +9,12 @@ mod surface;
 const KINDS: [BasisKind; 3] = [BasisKind::Linear, BasisKind::Gimp, BasisKind::Bspline];
 const FLIP: Carry = Carry::Flip { pic: 0.0 };
 
-const ELASTIC: Elastic = Elastic {
-    youngs_modulus: 1e4,
-    poissons_ratio: 0.3,
-    density: 2.0,
-};
-
 fn law() -> LinearElastic {
-    LinearElastic::new(&ELASTIC)
+    LinearElastic::new(&Elastic {
+        youngs_modulus: 1e4,
+        poissons_ratio: 0.3,
+        density: 2.0,
+    })
 }
 
 /// Fractions that look random.
