@@ -1,7 +1,7 @@
 //! The points of one region: a basis, a law, columns, and the passes over strips and blocks.
 
 use super::columns::{Columns, Part, Sorting};
-use super::fbar::Cells;
+use super::fbar::{Cells, Sum, add_traces};
 use super::fixed::{Fixed, Nodes};
 use super::lanes::Packed;
 use super::scatter::Run;
@@ -13,6 +13,7 @@ use crate::material::law::Law;
 use crate::points::{BLOCK, blocks};
 use crate::tensor::{Matrix, Vector, zero};
 use pulp::Arch;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Steps after which points are sorted again at the latest: sorting costs about as much as a step.
@@ -25,7 +26,7 @@ pub(super) struct Body<B, L: Law<D>, const D: usize> {
     columns: Columns<L::State, D>,
     sorting: Sorting<L::State, D>,
     strips: Strips,
-    /// Where cells' divergences replace the points'.
+    /// Where means over cells replace the points' traces.
     cells: Option<Cells>,
     /// Steps since the points were sorted.
     age: usize,
@@ -116,10 +117,49 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
         let mut packed = [Packed::ZERO; BLOCK];
         for block in blocks(self.strips.points[strip]..self.strips.points[strip + 1]) {
             fixed.fill(&mut stencils, &columns.place[block.clone()])?;
-            fixed.pack(columns, block.clone(), out, &mut packed);
+            let cells = self.cells.as_ref().map(|cells| &cells.means[..]);
+            fixed.pack(columns, block.clone(), out, cells, &mut packed);
             fixed.scatter(block.len(), &stencils, &packed, &mut run, out);
         }
         Ok(())
+    }
+
+    /// Means over cells of what `trace` gives for points and a block of them.
+    fn average(
+        &mut self,
+        trace: impl Fn(&Self, Range<usize>, &mut Stencils<D>, &mut [f64; BLOCK]) -> Result<(), Fault<D>>
+        + Sync,
+    ) -> Result<(), Fault<D>> {
+        let Some(mut cells) = self.cells.take() else {
+            return Ok(());
+        };
+        let body = &*self;
+        let (strips, places) = (&body.strips, &body.columns.place);
+        let work = |strip: usize, (first, sums): (usize, &mut [Sum])| {
+            let (mut stencils, mut traces) = (Stencils::new(), [0.0; BLOCK]);
+            for block in blocks(strips.points[strip]..strips.points[strip + 1]) {
+                trace(body, block.clone(), &mut stencils, &mut traces)?;
+                add_traces(&body.fixed.grid, &places[block], &traces, first, sums);
+            }
+            Ok(())
+        };
+        let mut done = Ok(());
+        for colour in 0..2 {
+            done = done.and(each(
+                0..strips.of_colour(colour),
+                (0, &mut cells.sums[..]),
+                body.fixed.shared,
+                &|(first, sums), k| {
+                    let node = strips.first_node(colour, k);
+                    let (lower, upper) = sums.split_at_mut(node - first);
+                    ((first, lower), (node, upper))
+                },
+                &|k, part| work(2 * k + colour, part),
+            ));
+        }
+        cells.divide();
+        self.cells = Some(cells);
+        done
     }
 
     /// A pass to the points.
@@ -129,14 +169,17 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
         a: &[Vector<D>],
         dt: f64,
     ) -> Result<(), Fault<D>> {
+        if MOVE {
+            self.average(|body, block, stencils, traces| {
+                let fixed = &body.fixed;
+                fixed.fill(stencils, &body.columns.place[block.clone()])?;
+                fixed.diverge(block.len(), stencils, v, traces);
+                Ok(())
+            })?;
+        }
         let (fixed, strips, strayed) = (&self.fixed, &self.strips, &self.strayed);
-        let cells = match &mut self.cells {
-            Some(cells) if MOVE => {
-                cells.diverge(&fixed.grid, v);
-                Some(&cells.values[..])
-            }
-            _ => None,
-        };
+        let cells = self.cells.as_ref().filter(|_| MOVE);
+        let cells = cells.map(|cells| &cells.means[..]);
         let nodes = Nodes { v, a, cells, dt };
         let work = |strip: usize, mut part: Part<'_, L::State, D>| {
             let leash = strips.leash(strip, B::WIDTH);
@@ -184,17 +227,11 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
         if *self.strayed.get_mut() || self.age >= SORT_EVERY {
             self.sort()?;
         }
-        let mut cells = self.cells.take();
-        let sums = cells.as_mut().map(|cells| {
-            cells.values.fill(0.0);
-            &mut cells.values[..]
-        });
-        let done = self.scatter(Sums::all(out, sums));
-        if let Some(cells) = &cells {
-            cells.force(&self.fixed.grid, &mut out.force);
-        }
-        self.cells = cells;
-        done
+        self.average(|body, block, _, traces| {
+            body.fixed.stress_traces(&body.columns.state[block], traces);
+            Ok(())
+        })?;
+        self.scatter(Sums::all(out))
     }
 
     fn to_points(&mut self, v: &[Vector<D>], a: &[Vector<D>], dt: f64) -> Result<(), Fault<D>> {
@@ -210,7 +247,6 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
             first: 0,
             momentum: out,
             others: None,
-            cells: None,
         })
     }
 

@@ -1,93 +1,63 @@
-//! Volumes by cell against locking: the trace of a point's velocity gradient is replaced by its cell's,
-//! the divergence at the cell's centre by multilinear functions of its 2^D nodes (the F-bar idea of de
-//! Souza Neto et al. 1996 in rates, over cells of the grid):
+//! Volumes by cell against locking: the traces of the points' velocity gradients and of their stresses are
+//! replaced by their means over the n_c points of a cell (the F-bar idea of de Souza Neto et al. 1996 in
+//! rates, over cells of the grid):
 //!
 //! ```text
-//! l = l_p + (d_c - tr l_p)/D I,    d_c = sum v_I . grad N_I(centre)
+//! l = l_p + (d_c - tr l_p)/D I,                  d_c = 1/n_c sum_q tr l_q
+//! f_I = - sum_p V [tau + (s_c - tr tau)/D I] grad N_I(x_p),   s_c = 1/n_c sum_q tr tau_q
 //! ```
 //!
-//! Forces are the adjoint, so that they do the work that the stress does: mean stresses
-//! `p = tr tau / D` act through the centre's gradients, the rest through the points' own,
+//! Points of a region have one volume V, so that the forces do the work that the stress does,
+//! `sum_I f_I . v_I = - sum_p V tau : l`. The square of a mean is at most the mean of the squares:
 //!
 //! ```text
-//! f_I = - sum_p V (tau - p I) grad N_I(x_p) - sum_c (sum_p V p) grad N_I(centre)
+//! sum_c n_c V K d_c^2 <= sum_p V K (tr l_p)^2
 //! ```
+//!
+//! whatever the nodes' masses are, so a step that is stable with the points' own divergences stays so. The
+//! divergence at the cell's centre, the usual choice, has no such bound: its gradients do not fall off
+//! where the points' own do, and turn nodes of hardly any mass around within a step at a surface.
 //!
 //! In plane strain both traces are those in the plane. Cells are numbered by their lowest node.
 
 use super::lanes::Packed;
+use super::stencils::Stencils;
+use crate::basis::along::WIDEST;
 use crate::grid::Grid;
+use crate::points::BLOCK;
 use crate::tensor::Vector;
+use pulp::NullaryFnOnce;
 
-/// A number a cell, under the number of its lowest node: sums of `- V p` (J) on the way to the nodes,
-/// divergences (1/s) on the way back.
+/// Sum and number of the points in a cell.
+pub(super) type Sum = [f64; 2];
+
+/// Means over the points of each cell, under the number of its lowest node.
 #[derive(Debug)]
 pub(super) struct Cells {
-    pub values: Vec<f64>,
-    /// For the cells whose lowest node is first in a row along x: that node.
-    rows: Vec<u32>,
+    pub sums: Vec<Sum>,
+    pub means: Vec<f64>,
 }
 
 impl Cells {
     /// For the cells of a grid.
     pub fn new<const D: usize>(grid: &Grid<D>) -> Self {
-        let rows = (0..grid.node_count()).filter(|&node| {
-            let index = grid.lattice(node);
-            index[0] == 0 && (1..D).all(|a| index[a] < grid.cells[a])
-        });
         Cells {
-            rows: rows.map(|node| node as u32).collect(),
-            values: vec![0.0; grid.node_count()],
+            sums: vec![[0.0; 2]; grid.node_count()],
+            means: vec![0.0; grid.node_count()],
         }
     }
 
-    /// Gives the mean stresses of all cells to their nodes.
-    pub fn force<const D: usize>(&self, grid: &Grid<D>, out: &mut [Vector<D>]) {
-        let corners = corners(grid);
-        for &row in &self.rows {
-            for cell in row as usize..row as usize + grid.cells[0] {
-                let sum = self.values[cell];
-                if sum == 0.0 {
-                    continue;
-                }
-                for (offset, gradient) in &corners[..1 << D] {
-                    let force = &mut out[cell + offset];
-                    *force = std::array::from_fn(|i| force[i] + sum * gradient[i]);
-                }
-            }
+    /// Takes the means of what has been summed, and starts anew; 0 where there is no point.
+    pub fn divide(&mut self) {
+        for (mean, sum) in self.means.iter_mut().zip(&mut self.sums) {
+            let [total, number] = std::mem::replace(sum, [0.0; 2]);
+            *mean = total / number.max(1.0);
         }
     }
-
-    /// Takes the divergences of all cells from the velocities `v` (m/s) of the nodes.
-    pub fn diverge<const D: usize>(&mut self, grid: &Grid<D>, v: &[Vector<D>]) {
-        let corners = corners(grid);
-        for &row in &self.rows {
-            for cell in row as usize..row as usize + grid.cells[0] {
-                let mut divergence = 0.0;
-                for (offset, gradient) in &corners[..1 << D] {
-                    let v = &v[cell + offset];
-                    for i in 0..D {
-                        divergence += v[i] * gradient[i];
-                    }
-                }
-                self.values[cell] = divergence;
-            }
-        }
-    }
-}
-
-/// The nodes of a cell, from its lowest, and the gradients (1/m) of their functions at its centre.
-fn corners<const D: usize>(grid: &Grid<D>) -> [(usize, Vector<D>); 8] {
-    let share = 0.5f64.powi(D as i32 - 1);
-    std::array::from_fn(|k| {
-        let up: [usize; D] = std::array::from_fn(|a| k >> a & 1);
-        let gradient = std::array::from_fn(|a| (2.0 * up[a] as f64 - 1.0) * share / grid.h[a]);
-        (grid.node(up), gradient)
-    })
 }
 
 /// The cell of a point within the grid.
-#[inline]
+#[inline(always)]
 fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> usize {
     let index = std::array::from_fn(|a| {
         (((x[a] - grid.origin[a]) / grid.h[a]) as usize).min(grid.cells[a] - 1)
@@ -95,37 +65,111 @@ fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> usize {
     grid.node(index)
 }
 
-/// Takes the mean stresses of a block's points at `places` out of what is packed for the nodes and adds
-/// them to the cells from number `first` on.
-pub(super) fn take_means<const D: usize>(
+/// Adds the `traces` of points at `places` to the sums of their cells, which start with number `first`.
+pub(super) fn add_traces<const D: usize>(
     grid: &Grid<D>,
     places: &[Vector<D>],
-    packed: &mut [Packed<D>],
+    traces: &[f64; BLOCK],
     first: usize,
-    cells: &mut [f64],
+    sums: &mut [Sum],
 ) {
-    for (x, packed) in places.iter().zip(packed) {
-        let trace: f64 = (0..D).map(|d| packed.columns[d][1][d]).sum();
-        let mean = trace / D as f64;
-        for d in 0..D {
-            packed.columns[d][1][d] -= mean;
-        }
-        cells[cell(grid, x) - first] += mean;
+    for (x, trace) in places.iter().zip(traces) {
+        let [total, number] = &mut sums[cell(grid, x) - first];
+        *total += trace;
+        *number += 1.0;
     }
 }
 
-/// Gives the points of a block at `places` the divergences of their cells.
-pub(super) fn give_divergences<const D: usize>(
+/// Gives points at `places` the traces of their cells times `scale`, in place of those of the matrix in
+/// lane `LANE` of `packed`.
+pub(super) fn give_traces<const LANE: usize, const D: usize>(
     grid: &Grid<D>,
     places: &[Vector<D>],
-    packed: &mut [Packed<D>],
-    cells: &[f64],
+    packed: &mut [Packed<D>; BLOCK],
+    scale: f64,
+    means: &[f64],
 ) {
     for (x, packed) in places.iter().zip(packed) {
-        let trace: f64 = (0..D).map(|d| packed.columns[d][0][d]).sum();
-        let more = (cells[cell(grid, x)] - trace) / D as f64;
+        let trace: f64 = (0..D).map(|d| packed.columns[d][LANE][d]).sum();
+        let more = (scale * means[cell(grid, x)] - trace) / D as f64;
         for d in 0..D {
-            packed.columns[d][0][d] += more;
+            packed.columns[d][LANE][d] += more;
+        }
+    }
+}
+
+/// Divergences (1/s) of a field of the nodes at a block of points that see `W` nodes along an axis. By rows
+/// of nodes along the first axis, with `r` and `r_d` as in [`super::scatter`]:
+///
+/// ```text
+/// tr l = sum r (sum n_x' v_x) + sum_d r_d (sum n_x v_d)
+/// ```
+pub(super) struct Diverge<'a, const D: usize, const W: usize> {
+    /// Number of points.
+    pub n: usize,
+    pub stencils: &'a Stencils<D>,
+    /// From a node to the next along each axis.
+    pub stride: [usize; D],
+    /// Velocities of all nodes (m/s).
+    pub v: &'a [Vector<D>],
+    pub traces: &'a mut [f64; BLOCK],
+}
+
+impl<const D: usize, const W: usize> NullaryFnOnce for Diverge<'_, D, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(mut self) {
+        let n = self.n.min(BLOCK);
+        *self.traces = [0.0; BLOCK];
+        let mut at = 0;
+        while at < n {
+            let base = self.stencils.base[at];
+            let start = at;
+            while at < n && self.stencils.base[at] == base {
+                at += 1;
+            }
+            self.run(base as usize, start, at);
+        }
+    }
+}
+
+impl<const D: usize, const W: usize> Diverge<'_, D, W> {
+    /// Points `start..end`, which all see the nodes from `base` on.
+    #[inline(always)]
+    fn run(&mut self, base: usize, start: usize, end: usize) {
+        let s = self.stencils;
+        let mut products = [[0.0; BLOCK]; D];
+        for row in 0..W.pow(D as u32 - 1) {
+            let (mut rest, mut node, mut index) = (row, base, [0; D]);
+            for d in 1..D {
+                index[d] = rest % W;
+                node += index[d] * self.stride[d];
+                rest /= W;
+            }
+            // r, then r_d
+            for (d, product) in products.iter_mut().enumerate() {
+                for (p, product) in product.iter_mut().enumerate().take(end).skip(start) {
+                    let mut value = 1.0;
+                    for e in 1..D {
+                        let functions = if e == d { &s.slopes } else { &s.values };
+                        value *= functions[e][index[e]][p];
+                    }
+                    *product = value;
+                }
+            }
+            let mut nodes = [[0.0; D]; WIDEST];
+            nodes[..W].copy_from_slice(&self.v[node..node + W]);
+            for (i, v) in nodes.iter().enumerate().take(W) {
+                for p in start..end {
+                    let mut across = 0.0;
+                    for d in 1..D {
+                        across += v[d] * products[d][p];
+                    }
+                    self.traces[p] +=
+                        s.slopes[0][i][p] * v[0] * products[0][p] + s.values[0][i][p] * across;
+                }
+            }
         }
     }
 }

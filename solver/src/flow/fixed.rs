@@ -1,10 +1,10 @@
 //! What a region's passes do to a block of points.
 
 use super::columns::{Columns, Part};
-use super::fbar::{give_divergences, take_means};
+use super::fbar::{Diverge, give_traces};
 use super::gather::Gather;
 use super::lanes::{PackMotion, Packed, Unpack};
-use super::law_blocks::{Advance, PackStress};
+use super::law_blocks::{Advance, PackStress, StressTraces};
 use super::scatter::{Run, Scatter};
 use super::stencils::Stencils;
 use super::strips::Sums;
@@ -58,12 +58,14 @@ impl<B: Basis, L, const D: usize> Fixed<B, L, D> {
 }
 
 impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
-    /// Packs what a block of points gives to the nodes; mean stresses go to the cells if asked for.
+    /// Packs what a block of points gives to the nodes; with the traces of their stresses from `cells` where
+    /// there are any.
     pub fn pack(
         &self,
         columns: &Columns<L::State, D>,
         block: Range<usize>,
-        out: &mut Sums<'_, D>,
+        out: &Sums<'_, D>,
+        cells: Option<&[f64]>,
         packed: &mut [Packed<D>; BLOCK],
     ) {
         self.arch.dispatch(PackMotion {
@@ -75,16 +77,52 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
             },
             packed,
         });
-        if out.others.is_some() {
-            self.arch.dispatch(PackStress {
-                law: &self.law,
-                volume: self.volume,
-                state: &columns.state[block.clone()],
-                packed,
-            });
+        if out.others.is_none() {
+            return;
         }
-        if let Some(cells) = &mut out.cells {
-            take_means(&self.grid, &columns.place[block], packed, out.first, cells);
+        self.arch.dispatch(PackStress {
+            law: &self.law,
+            volume: self.volume,
+            state: &columns.state[block.clone()],
+            packed,
+        });
+        if let Some(cells) = cells {
+            let places = &columns.place[block];
+            give_traces::<1, D>(&self.grid, places, packed, -self.volume, cells);
+        }
+    }
+
+    /// Traces (Pa) of the stresses of a block.
+    pub fn stress_traces(&self, state: &[L::State], traces: &mut [f64; BLOCK]) {
+        self.arch.dispatch(StressTraces {
+            law: &self.law,
+            state,
+            traces,
+        });
+    }
+
+    /// Divergences (1/s) of the nodes' velocities `v` (m/s) at `n` points.
+    pub fn diverge(
+        &self,
+        n: usize,
+        stencils: &Stencils<D>,
+        v: &[Vector<D>],
+        traces: &mut [f64; BLOCK],
+    ) {
+        macro_rules! pass {
+            ($width:literal) => {
+                self.arch.dispatch(Diverge::<D, $width> {
+                    n,
+                    stencils,
+                    stride: self.stride,
+                    v,
+                    traces,
+                })
+            };
+        }
+        match B::WIDTH {
+            2 => pass!(2),
+            _ => pass!(3),
         }
     }
 
@@ -143,7 +181,7 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
             _ => gather!(3),
         }
         if let Some(cells) = nodes.cells {
-            give_divergences(&self.grid, block.place, &mut packed, cells);
+            give_traces::<0, D>(&self.grid, block.place, &mut packed, 1.0, cells);
         }
         macro_rules! unpack {
             ($affine:literal, $pic:expr) => {

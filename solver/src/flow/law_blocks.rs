@@ -3,7 +3,7 @@
 use super::lanes::Packed;
 use crate::material::law::Law;
 use crate::points::BLOCK;
-use crate::tensor::{add_scaled, identity, inverse};
+use crate::tensor::{add_scaled, identity, inverse, trace};
 use pulp::NullaryFnOnce;
 
 /// Packs the stresses of a block.
@@ -27,6 +27,24 @@ impl<L: Law<D>, const D: usize> NullaryFnOnce for PackStress<'_, L, D> {
                     packed.columns[d][1][i] = -self.volume * stress[i][d];
                 }
             }
+        }
+    }
+}
+
+/// Traces (Pa) of the stresses of a block, in plane strain those in the plane.
+pub(super) struct StressTraces<'a, L: Law<D>, const D: usize> {
+    pub law: &'a L,
+    pub state: &'a [L::State],
+    pub traces: &'a mut [f64; BLOCK],
+}
+
+impl<L: Law<D>, const D: usize> NullaryFnOnce for StressTraces<'_, L, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (sum, state) in self.traces.iter_mut().zip(self.state) {
+            *sum = trace(&self.law.stress(state));
         }
     }
 }

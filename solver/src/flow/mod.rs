@@ -31,7 +31,6 @@ mod law_blocks;
 mod scatter;
 mod stencils;
 mod strips;
-pub mod surface;
 #[cfg(test)]
 mod tests;
 

@@ -84,18 +84,15 @@ pub(super) struct Sums<'a, const D: usize> {
     pub momentum: &'a mut [Vector<D>],
     /// Masses and forces, where they are asked for.
     pub others: Option<(&'a mut [f64], &'a mut [Vector<D>])>,
-    /// Sums of the cells, where they are asked for.
-    pub cells: Option<&'a mut [f64]>,
 }
 
 impl<'a, const D: usize> Sums<'a, D> {
-    /// All sums of nodes, and those of cells where they are asked for.
-    pub fn all(out: &'a mut NodeSums<D>, cells: Option<&'a mut [f64]>) -> Self {
+    /// All sums.
+    pub fn all(out: &'a mut NodeSums<D>) -> Self {
         Sums {
             first: 0,
             momentum: &mut out.momentum,
             others: Some((&mut out.mass, &mut out.force)),
-            cells,
         }
     }
 
@@ -105,7 +102,6 @@ impl<'a, const D: usize> Sums<'a, D> {
             first: self.first,
             momentum: self.momentum,
             others: self.others.as_mut().map(|(m, f)| (&mut **m, &mut **f)),
-            cells: self.cells.as_deref_mut(),
         }
     }
 
@@ -121,25 +117,16 @@ impl<'a, const D: usize> Sums<'a, D> {
                 (Some((mass, force)), Some((masses, forces)))
             }
         };
-        let (cells, more) = match self.cells {
-            None => (None, None),
-            Some(cells) => {
-                let (cells, more) = cells.split_at_mut(n);
-                (Some(cells), Some(more))
-            }
-        };
         (
             Sums {
                 first: self.first,
                 momentum,
                 others,
-                cells,
             },
             Sums {
                 first: node,
                 momentum: momenta,
                 others: rest,
-                cells: more,
             },
         )
     }

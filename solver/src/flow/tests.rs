@@ -4,17 +4,18 @@ use crate::problem::Elastic;
 mod cells;
 mod patches;
 mod runs;
-mod surface;
 
 const KINDS: [BasisKind; 3] = [BasisKind::Linear, BasisKind::Gimp, BasisKind::Bspline];
 const FLIP: Carry = Carry::Flip { pic: 0.0 };
 
+const ELASTIC: Elastic = Elastic {
+    youngs_modulus: 1e4,
+    poissons_ratio: 0.3,
+    density: 2.0,
+};
+
 fn law() -> LinearElastic {
-    LinearElastic::new(&Elastic {
-        youngs_modulus: 1e4,
-        poissons_ratio: 0.3,
-        density: 2.0,
-    })
+    LinearElastic::new(&ELASTIC)
 }
 
 /// Fractions that look random.
@@ -31,7 +32,7 @@ fn grid<const D: usize>() -> Grid<D> {
     }
 }
 
-/// Points all over the grid, so many in each cell that no node is faint, moving and stressed.
+/// Points all over the grid, so many in each cell that no node is light, moving and stressed.
 fn cloud<const D: usize>(basis: BasisKind, carry: Carry) -> Start<D> {
     let grid = grid::<D>();
     let cells: usize = grid.cells.iter().product();
