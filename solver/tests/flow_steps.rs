@@ -2,6 +2,7 @@
 //! two.
 
 use allocation_counter::measure;
+use anechoic_solver::flow::surface::Surface;
 use anechoic_solver::flow::{Carry, Constitution, Dimension, Flow, NodeSums, Space, Start};
 use anechoic_solver::grid::Grid;
 use anechoic_solver::material::linear_elastic::LinearElastic;
@@ -45,12 +46,14 @@ fn run(flow: &mut dyn Flow<2>, grid: &Grid<2>, steps: &[usize]) -> Vec<u64> {
     let nodes = grid.node_count();
     let (mut sums, dt) = (NodeSums::new(nodes), 0.4 / ELASTIC.p_speed());
     let (mut v, mut a) = (vec![[0.0; 2]; nodes], vec![[0.0; 2]; nodes]);
+    let mut surface = Surface::new(grid, ELASTIC.density);
     let mut counts = Vec::with_capacity(steps.len());
     for &n in steps {
         let memory = measure(|| {
             for _ in 0..n {
                 sums.clear();
                 flow.to_nodes(&mut sums).expect("within the grid");
+                surface.fold(&mut sums);
                 for k in 0..nodes {
                     let per_mass = if sums.mass[k] > 0.0 {
                         1.0 / sums.mass[k]
@@ -60,6 +63,8 @@ fn run(flow: &mut dyn Flow<2>, grid: &Grid<2>, steps: &[usize]) -> Vec<u64> {
                     a[k] = sums.force[k].map(|f| f * per_mass);
                     v[k] = std::array::from_fn(|i| sums.momentum[k][i] * per_mass + dt * a[k][i]);
                 }
+                surface.follow(&mut v);
+                surface.follow(&mut a);
                 flow.to_points(&v, &a, dt).expect("a sound step");
             }
         });

@@ -31,6 +31,7 @@ mod law_blocks;
 mod scatter;
 mod stencils;
 mod strips;
+pub mod surface;
 #[cfg(test)]
 mod tests;
 

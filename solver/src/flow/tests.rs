@@ -4,6 +4,7 @@ use crate::problem::Elastic;
 mod cells;
 mod patches;
 mod runs;
+mod surface;
 
 const KINDS: [BasisKind; 3] = [BasisKind::Linear, BasisKind::Gimp, BasisKind::Bspline];
 const FLIP: Carry = Carry::Flip { pic: 0.0 };

@@ -7,6 +7,7 @@
 use super::kernel::Lumped;
 use super::model::Model;
 use crate::error::SolverError;
+use crate::flow::surface::Surface;
 use crate::flow::{Flow, NodeSums};
 use crate::problem::StressUpdate;
 use crate::tensor::Vector;
@@ -16,6 +17,8 @@ pub struct Flowing<const D: usize> {
     /// The points, those of the target first.
     parts: Vec<Box<dyn Flow<D>>>,
     sums: NodeSums<D>,
+    /// Nodes that wide functions barely reach; `None` for functions that are not wide.
+    surface: Option<Surface<D>>,
     /// Weight over mass (m/s2).
     gravity: Vector<D>,
     update: StressUpdate,
@@ -25,10 +28,12 @@ pub struct Flowing<const D: usize> {
 }
 
 impl<const D: usize> Flowing<D> {
-    /// The points of the target and those outside it, on so many nodes.
+    /// The points of the target and those outside it, on so many nodes, of which `surface` knows those
+    /// that are barely reached.
     pub fn new(
         parts: Vec<Box<dyn Flow<D>>>,
         nodes: usize,
+        surface: Option<Surface<D>>,
         gravity: Vector<D>,
         update: StressUpdate,
         resting: Vec<Vector<D>>,
@@ -36,6 +41,7 @@ impl<const D: usize> Flowing<D> {
         Flowing {
             parts,
             sums: NodeSums::new(nodes),
+            surface,
             gravity,
             update,
             resting,
@@ -125,6 +131,9 @@ impl<const D: usize> Model<D> {
             let moment = self.moment;
             part.to_nodes(&mut flow.sums).map_err(|f| f.at(moment))?;
         }
+        if let Some(surface) = &mut flow.surface {
+            surface.fold(&mut flow.sums);
+        }
         let nodes = &mut self.nodes;
         for (saved, &n) in self.kept.saved.iter_mut().zip(&self.kept.nodes) {
             saved.0 = nodes.v[n as usize];
@@ -141,6 +150,10 @@ impl<const D: usize> Model<D> {
         let Some(flow) = &mut self.flow else {
             return Ok(());
         };
+        if let Some(surface) = &flow.surface {
+            surface.follow(&mut self.nodes.v);
+            surface.follow(&mut self.nodes.a);
+        }
         let (nodes, moment, dt) = (&self.nodes, self.moment, self.dt);
         if flow.update == StressUpdate::Usl {
             for part in &mut flow.parts {
@@ -156,6 +169,9 @@ impl<const D: usize> Model<D> {
             let sent = part.momentum(&mut flow.sums.momentum);
             sent.map_err(|f| f.at(moment))?;
         }
+        if let Some(surface) = &flow.surface {
+            surface.fold_field(&mut flow.sums.momentum);
+        }
         // what is held, driven or kept by a layer stays as the step has found it
         let mut again = std::mem::take(&mut self.work);
         velocities(&flow.sums.momentum, &flow.sums.mass, &mut again);
@@ -168,6 +184,9 @@ impl<const D: usize> Model<D> {
                     again[n][i] = nodes.v[n][i];
                 }
             }
+        }
+        if let Some(surface) = &flow.surface {
+            surface.follow(&mut again);
         }
         for part in &mut flow.parts {
             let drifted = part.drift(&again, dt);

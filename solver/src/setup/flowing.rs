@@ -4,6 +4,7 @@
 use crate::basis::on_grid;
 use crate::contact::term::Touch;
 use crate::error::SolverError;
+use crate::flow::surface::Surface;
 use crate::flow::{Carry, Constitution, Dimension, Flow, Space, Start};
 use crate::geometry::Geometry;
 use crate::linear::Moment;
@@ -95,9 +96,12 @@ where
     gravity[1] = -problem.flow.gravity;
     let nodes = geometry.grid.node_count();
     let resting = held_at_start(problem, geometry, layers, &gravity)?;
+    let cell_mass = problem.material.density * geometry.grid.h.iter().product::<f64>();
+    let wide = problem.basis != BasisKind::Linear;
     Ok(Flowing::new(
         parts?,
         nodes,
+        wide.then(|| Surface::new(&geometry.grid, cell_mass)),
         gravity,
         problem.flow.update,
         resting,

@@ -61,9 +61,6 @@ fn a_damping_layer_of_four_metres_meets_five_per_cent() {
 /// A push at 0.4 m/s, whose rho v^2 is 4 % of s_u, to w/D = 0.1, 0.2, 0.3: slip lines without heave below
 /// (analytic), and a fit to finite elements with heave above (Merifield et al. 2009). The targets are 0.95 of
 /// the one and 1.1 of the other: what lies below would be soil that is too weak.
-///
-/// At w/D = 0.1 the first is missed by cells of D/16: 0.92. The pipe is 1.6 cells in there, and its outline is
-/// known to a quarter of a cell, a sixth of its depth; 0.9 is accepted.
 #[test]
 fn a_slow_push_meets_what_clay_can_bear() {
     let out = tempfile::tempdir().unwrap();
@@ -74,13 +71,13 @@ fn a_slow_push_meets_what_clay_can_bear() {
     let finished = run(&options).unwrap();
     print_claims(&finished.rows);
     assert_eq!(claims(&finished.rows).count(), 6);
-    assert_eq!(failing(&finished.rows), ["fixed/resistance_ratio/w/D=0.1"]);
-    for (depth, least) in [(0.1, 0.9), (0.2, 0.95), (0.3, 0.95)] {
+    assert!(failing(&finished.rows).is_empty());
+    for depth in [0.1, 0.2, 0.3] {
         let place = format!("w/D={depth}");
         let own = value(&finished.rows, "fixed", "resistance", &place);
         let low = bearing_factor(Interface::Smooth, depth).unwrap();
         let high = merifield_smooth(depth).unwrap();
         println!("w/D = {depth}: {own:.3}, slip lines {low:.3}, fit {high:.3}");
-        assert!(own > least * low && own < 1.1 * high, "{own}");
+        assert!(own > 0.95 * low && own < 1.1 * high, "{own}");
     }
 }

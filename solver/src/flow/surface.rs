@@ -1,0 +1,196 @@
+//! Nodes just beyond a free surface, to which points give next to nothing: what
+//! [`crate::basis`] does for stored stencils (its `faint` nodes), done to the sums of the nodes.
+//!
+//! A faint node F gets nothing; what it would get goes to the two nodes before it along an axis, and it
+//! moves as they say:
+//!
+//! ```text
+//! s_1 += 2 s_F,   s_2 -= s_F,   s_F = 0            for masses, momenta, forces
+//! v_F = 2 v_1 - v_2                                for velocities, accelerations
+//! ```
+//!
+//! The second is the adjoint of the first, so that masses, momenta, linear fields and work are kept,
+//! and points need not know. Beyond an edge or a corner the nodes before are faint themselves; such
+//! nodes are folded first and follow last.
+//!
+//! This holds surfaces that are pulled or driven. It is no matter of stability: what a point does to nodes of
+//! its own functions is bounded by `omega^2 <= c^2 max sum |grad N|^2/N`, however little they weigh, but
+//! folding makes points act on nodes that they do not see, and those have to be firm. A faint node without
+//! one stays as it is, as around single points and in splashes.
+
+use super::NodeSums;
+use crate::grid::Grid;
+use crate::tensor::Vector;
+
+/// A node is faint below this share of the mass of a full cell; as in [`crate::basis`].
+const FAINT: f64 = 5e-3;
+
+/// A node is firm from this share on: what is folded onto it weighs next to nothing beside that.
+const FIRM: f64 = 0.25;
+
+/// What a node is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    /// Without mass.
+    Void,
+    /// Faint, without nodes to lean on yet.
+    Faint,
+    /// Faint, and leans on nodes before it in so many turns.
+    Leaning(u8),
+    /// Not faint.
+    Solid,
+}
+
+/// A faint node and the way to the nodes before it.
+#[derive(Clone, Copy, Debug)]
+struct Lean {
+    node: u32,
+    step: i32,
+}
+
+/// The faint nodes of the bodies on a grid.
+#[derive(Debug)]
+pub struct Surface<const D: usize> {
+    grid: Grid<D>,
+    faint: f64,
+    firm: f64,
+    kinds: Vec<Kind>,
+    /// Faint nodes, those nearest to the bodies first.
+    leans: Vec<Lean>,
+    /// Faint nodes without a lean.
+    rest: Vec<u32>,
+}
+
+impl<const D: usize> Surface<D> {
+    /// For bodies whose full cells weigh `cell_mass` (kg), the lightest of them.
+    pub fn new(grid: &Grid<D>, cell_mass: f64) -> Self {
+        let nodes = grid.node_count();
+        Surface {
+            grid: grid.clone(),
+            faint: FAINT * cell_mass,
+            firm: FIRM * cell_mass,
+            kinds: vec![Kind::Void; nodes],
+            leans: Vec::with_capacity(nodes),
+            rest: Vec::with_capacity(nodes),
+        }
+    }
+
+    /// Finds the faint nodes by the sums of all bodies and takes from them what they have.
+    pub fn fold(&mut self, sums: &mut NodeSums<D>) {
+        self.find(&sums.mass);
+        for lean in self.leans.iter().rev() {
+            let [node, one, two] = lean.line();
+            let mass = std::mem::replace(&mut sums.mass[node], 0.0);
+            sums.mass[one] += 2.0 * mass;
+            sums.mass[two] -= mass;
+        }
+        self.fold_field(&mut sums.momentum);
+        self.fold_field(&mut sums.force);
+    }
+
+    /// The same with the same nodes for one field of sums: momenta after a kick.
+    pub fn fold_field(&self, sums: &mut [Vector<D>]) {
+        for lean in self.leans.iter().rev() {
+            let [node, one, two] = lean.line();
+            let s = std::mem::replace(&mut sums[node], [0.0; D]);
+            for i in 0..D {
+                sums[one][i] += 2.0 * s[i];
+                sums[two][i] -= s[i];
+            }
+        }
+    }
+
+    /// Lets the faint nodes follow those before them: velocities or accelerations.
+    pub fn follow(&self, field: &mut [Vector<D>]) {
+        for lean in &self.leans {
+            let [node, one, two] = lean.line();
+            field[node] = std::array::from_fn(|i| 2.0 * field[one][i] - field[two][i]);
+        }
+    }
+
+    /// Number of nodes that lean on others.
+    pub fn len(&self) -> usize {
+        self.leans.len()
+    }
+
+    /// Does no node lean on others?
+    pub fn is_empty(&self) -> bool {
+        self.leans.is_empty()
+    }
+
+    fn find(&mut self, mass: &[f64]) {
+        self.leans.clear();
+        self.rest.clear();
+        for (node, (kind, &m)) in self.kinds.iter_mut().zip(mass).enumerate() {
+            *kind = if m >= self.faint {
+                Kind::Solid
+            } else if m > 0.0 {
+                self.rest.push(node as u32);
+                Kind::Faint
+            } else {
+                Kind::Void
+            };
+        }
+        for turn in 0..D as u8 {
+            let mut rest = std::mem::take(&mut self.rest);
+            rest.retain(|&node| match self.lean(node as usize, turn, mass) {
+                Some(lean) => {
+                    self.kinds[node as usize] = Kind::Leaning(turn);
+                    self.leans.push(lean);
+                    false
+                }
+                None => true,
+            });
+            self.rest = rest;
+        }
+    }
+
+    /// Two nodes in a row before a faint one that are solid, the second of them firm, or lean since an
+    /// earlier turn: along the axis and the way on which the first has most mass.
+    fn lean(&self, node: usize, turn: u8, mass: &[f64]) -> Option<Lean> {
+        let index = self.grid.lattice(node);
+        let holds = |n: usize, least: f64| match self.kinds[n] {
+            Kind::Solid => mass[n] >= least,
+            Kind::Leaning(since) => since < turn,
+            Kind::Void | Kind::Faint => false,
+        };
+        let mut best: Option<(f64, Lean)> = None;
+        let mut stride = 1;
+        for a in 0..D {
+            for up in [false, true] {
+                let room = if up {
+                    index[a] + 2 <= self.grid.cells[a]
+                } else {
+                    index[a] >= 2
+                };
+                if !room {
+                    continue;
+                }
+                let step = if up { stride } else { -stride };
+                let lean = Lean {
+                    node: node as u32,
+                    step,
+                };
+                let [_, one, two] = lean.line();
+                if holds(one, self.faint)
+                    && holds(two, self.firm)
+                    && best.is_none_or(|(m, _)| mass[one] > m)
+                {
+                    best = Some((mass[one], lean));
+                }
+            }
+            stride *= self.grid.nodes_along(a) as i32;
+        }
+        best.map(|(_, lean)| lean)
+    }
+}
+
+impl Lean {
+    /// The node and the two before it.
+    #[inline]
+    fn line(self) -> [usize; 3] {
+        let node = self.node as usize;
+        let one = node.wrapping_add_signed(self.step as isize);
+        [node, one, one.wrapping_add_signed(self.step as isize)]
+    }
+}

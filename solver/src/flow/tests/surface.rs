@@ -1,0 +1,117 @@
+use super::*;
+use crate::flow::surface::Surface;
+use crate::points::Points;
+
+/// A rectangle of full cells of two points an axis, its sides `off` cells from the cells' faces.
+fn rectangle(basis: BasisKind, off: f64) -> Start<2> {
+    let grid = Grid {
+        origin: [0.0; 2],
+        h: [0.5, 0.25],
+        cells: [12, 14],
+    };
+    let mut points = Points::<2>::default();
+    for (i, j) in (4..9).flat_map(|i| (3..10).map(move |j| (i, j))) {
+        let lower = [grid.h[0] * (i as f64 + off), grid.h[1] * (j as f64 - off)];
+        points.fill_cell(&lower, &grid.h, 2, None, 2.0);
+    }
+    let places = points.place;
+    Start {
+        velocities: places.iter().map(|x| [1.0 + x[1], x[0] * x[1]]).collect(),
+        stress: Some(places.iter().map(|x| [[x[0], 0.3], [0.3, x[1]]]).collect()),
+        volume: points.volume[0],
+        basis,
+        per_axis: 2,
+        density: 2.0,
+        carry: FLIP,
+        mean_volumes: false,
+        shared: false,
+        grid,
+        places,
+    }
+}
+
+/// Sums of a body and what they are once faint nodes have been folded.
+fn folded(start: &Start<2>) -> (NodeSums<2>, NodeSums<2>, Surface<2>, Box<dyn Flow<2>>) {
+    let mut flow = flow(law(), start.clone()).expect("within the grid");
+    let mut sums = NodeSums::new(start.grid.node_count());
+    flow.to_nodes(&mut sums).expect("within the grid");
+    let mut surface = Surface::new(&start.grid, 4.0 * start.density * start.volume);
+    let whole = sums.clone();
+    surface.fold(&mut sums);
+    (whole, sums, surface, flow)
+}
+
+#[test]
+fn faint_nodes_are_those_of_the_general_discretisation() {
+    for (basis, off) in [(BasisKind::Bspline, 0.13), (BasisKind::Gimp, 0.05)] {
+        let start = rectangle(basis, off);
+        let (_, sums, surface, flow) = folded(&start);
+        // beyond two sides and the corners between
+        assert!(surface.len() > 12, "{}", surface.len());
+        let n = flow.len();
+        let disc = general(flow.as_ref(), &start);
+        let mut expected = NodeSums::new(start.grid.node_count());
+        let mass = vec![flow.point_mass(); n];
+        disc.scatter_scalar(0..n, &mass, &mut expected.mass);
+        disc.scatter_vector(0..n, &mass, flow.velocities(), &mut expected.momentum);
+        let volumes = vec![-start.volume; n];
+        let stress = stresses(flow.as_ref());
+        disc.scatter_stress(0..n, &volumes, &stress, &mut expected.force);
+        let pick = |sums: &NodeSums<2>| -> Vec<f64> {
+            let nodes = (0..sums.mass.len()).filter(|&node| {
+                // beyond corners the general discretisation asks for less: it looks along axes only, and
+                // where both sides just reach nodes that are not faint it leaves the node beyond
+                let index = start.grid.lattice(node);
+                (6..8).contains(&index[0]) || (5..9).contains(&index[1])
+            });
+            let all = |n: usize| [[sums.mass[n], 0.0], sums.momentum[n], sums.force[n]];
+            nodes.flat_map(|n| all(n).into_iter().flatten()).collect()
+        };
+        assert_near(&pick(&sums), &pick(&expected), &format!("{basis:?}"));
+    }
+}
+
+#[test]
+fn following_is_the_adjoint_of_folding() {
+    let start = rectangle(BasisKind::Bspline, 0.13);
+    let (whole, sums, surface, _) = folded(&start);
+    let v = field::<2>(start.grid.node_count(), 0.7);
+    let mut following = v.clone();
+    surface.follow(&mut following);
+    let power = |f: &[Vector<2>], v: &[Vector<2>]| -> f64 {
+        let pairs = f.as_flattened().iter().zip(v.as_flattened());
+        pairs.map(|(f, v)| f * v).sum()
+    };
+    let (expected, got) = (power(&whole.force, &following), power(&sums.force, &v));
+    assert!((expected - got).abs() < 1e-12);
+    let mut again = whole.momentum.clone();
+    surface.fold_field(&mut again);
+    assert_eq!(again, sums.momentum);
+}
+
+#[test]
+fn following_keeps_linear_fields() {
+    let start = rectangle(BasisKind::Gimp, 0.05);
+    let (_, _, surface, _) = folded(&start);
+    let linear = linear_field(&start.grid, &[[0.2, -0.3], [0.7, 1.1]]);
+    let mut following = linear.clone();
+    surface.follow(&mut following);
+    assert_near(following.as_flattened(), linear.as_flattened(), "velocity");
+}
+
+#[test]
+fn folding_keeps_the_mass_and_empties_no_node() {
+    let mut start = rectangle(BasisKind::Bspline, 0.0);
+    for turn in 0..200 {
+        // two points somewhere
+        start.places = (2 * turn..2 * turn + 2)
+            .map(|k| [6.0 * fraction(k, 0), 3.5 * fraction(k, 1)])
+            .collect();
+        start.velocities.truncate(2);
+        start.stress = None;
+        let (whole, sums, _, _) = folded(&start);
+        assert!(sums.mass.iter().all(|m| *m >= 0.0));
+        let total = |sums: &NodeSums<2>| sums.mass.iter().sum::<f64>();
+        assert_near(&[total(&sums)], &[total(&whole)], "mass");
+    }
+}
