@@ -25,6 +25,15 @@ const ELASTIC: Elastic = Elastic {
     density: 650.0,
 };
 
+/// What a step is made of.
+#[derive(Clone, Copy)]
+struct Kind {
+    basis: BasisKind,
+    law: Constitution,
+    carry: Carry,
+    mean_volumes: bool,
+}
+
 /// A body and what its nodes need.
 struct Run {
     flow: Box<dyn Flow<2>>,
@@ -40,13 +49,7 @@ fn scattered(k: usize, by: f64) -> f64 {
 
 impl Run {
     /// `cells` cells with four points each, off their centres, and two empty cells around.
-    fn new(
-        cells: [usize; 2],
-        basis: BasisKind,
-        law: Constitution,
-        carry: Carry,
-        shared: bool,
-    ) -> Self {
+    fn new(cells: [usize; 2], kind: Kind, shared: bool) -> Self {
         let grid = Grid {
             origin: [-2.0; 2],
             h: [1.0; 2],
@@ -70,17 +73,17 @@ impl Run {
         let start = Start {
             velocities: velocities.collect(),
             grid,
-            basis,
+            basis: kind.basis,
             per_axis: 2,
             places,
             stress: None,
             volume: 0.25,
             density: ELASTIC.density,
-            carry,
-            mean_volumes: false,
+            carry: kind.carry,
+            mean_volumes: kind.mean_volumes,
             shared,
         };
-        let flow = Space::flow(law, start).expect("places within the grid");
+        let flow = Space::flow(kind.law, start).expect("places within the grid");
         Run {
             flow,
             sums: NodeSums::new(nodes),
@@ -147,39 +150,41 @@ fn rates(c: &mut Criterion) {
     let von_mises = Constitution::VonMises(VonMises::new(&ELASTIC, 1e-3 * ELASTIC.youngs_modulus));
     let mut group = c.benchmark_group("flow");
     group.sample_size(10);
-    for (name, basis, law, carry) in [
+    let kind = |basis, law, carry| Kind {
+        basis,
+        law,
+        carry,
+        mean_volumes: false,
+    };
+    let (affine, flip) = (Carry::Affine, Carry::Flip { pic: 0.0 });
+    let clay = kind(BasisKind::Gimp, von_mises, affine);
+    for (name, kind) in [
         (
             "bspline elastic affine",
-            BasisKind::Bspline,
-            elastic,
-            Carry::Affine,
+            kind(BasisKind::Bspline, elastic, affine),
         ),
         (
             "bspline elastic flip",
-            BasisKind::Bspline,
-            elastic,
-            Carry::Flip { pic: 0.0 },
+            kind(BasisKind::Bspline, elastic, flip),
         ),
         (
             "gimp elastic affine",
-            BasisKind::Gimp,
-            elastic,
-            Carry::Affine,
+            kind(BasisKind::Gimp, elastic, affine),
         ),
+        ("gimp von-mises affine", clay),
         (
-            "gimp von-mises affine",
-            BasisKind::Gimp,
-            von_mises,
-            Carry::Affine,
+            "gimp von-mises affine f-bar",
+            Kind {
+                mean_volumes: true,
+                ..clay
+            },
         ),
         (
             "linear elastic flip",
-            BasisKind::Linear,
-            elastic,
-            Carry::Flip { pic: 0.0 },
+            kind(BasisKind::Linear, elastic, flip),
         ),
     ] {
-        let mut run = Run::new(CELLS, basis, law, carry, false);
+        let mut run = Run::new(CELLS, kind, false);
         let points = run.flow.len();
         let mut best = f64::INFINITY;
         group.throughput(Throughput::Elements(points as u64));
@@ -205,7 +210,13 @@ const STEPS: usize = 8;
 
 fn threads(_: &mut Criterion) {
     let elastic = Constitution::LinearElastic(LinearElastic::new(&ELASTIC));
-    let new = |cells, shared| Run::new(cells, BasisKind::Bspline, elastic, Carry::Affine, shared);
+    let kind = Kind {
+        basis: BasisKind::Bspline,
+        law: elastic,
+        carry: Carry::Affine,
+        mean_volumes: false,
+    };
+    let new = |cells, shared| Run::new(cells, kind, shared);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(2)
         .build()

@@ -51,7 +51,7 @@ pub trait Basis: Send + 'static {
 ///
 /// Adding 1.5 2^52 leaves it in the lowest bits. `as` would saturate, which no vector instruction does.
 #[inline(always)]
-pub(super) fn whole(x: f64) -> i32 {
+pub(crate) fn whole(x: f64) -> i32 {
     const SHIFT: f64 = 1.5 * (1u64 << 52) as f64;
     (x + SHIFT).to_bits() as i32
 }

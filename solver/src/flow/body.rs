@@ -139,7 +139,8 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
             let (mut stencils, mut traces) = (Stencils::new(), [0.0; BLOCK]);
             for block in blocks(strips.points[strip]..strips.points[strip + 1]) {
                 trace(body, block.clone(), &mut stencils, &mut traces)?;
-                add_traces(&body.fixed.grid, &places[block], &traces, first, sums);
+                let cells = body.fixed.cells(&places[block.clone()]);
+                add_traces(&cells[..block.len()], &traces, first, sums);
             }
             Ok(())
         };

@@ -22,7 +22,7 @@
 
 use super::lanes::Packed;
 use super::stencils::Stencils;
-use crate::basis::along::WIDEST;
+use crate::basis::along::{WIDEST, whole};
 use crate::grid::Grid;
 use crate::points::BLOCK;
 use crate::tensor::Vector;
@@ -56,42 +56,52 @@ impl Cells {
     }
 }
 
-/// The cell of a point within the grid.
-#[inline(always)]
-fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> usize {
-    let index = std::array::from_fn(|a| {
-        (((x[a] - grid.origin[a]) / grid.h[a]) as usize).min(grid.cells[a] - 1)
-    });
-    grid.node(index)
+/// The cells of a block of points within the grid; a point on a face is in either.
+pub(super) struct Find<'a, const D: usize> {
+    pub grid: &'a Grid<D>,
+    pub places: &'a [Vector<D>],
+    pub cells: &'a mut [u32; BLOCK],
 }
 
-/// Adds the `traces` of points at `places` to the sums of their cells, which start with number `first`.
-pub(super) fn add_traces<const D: usize>(
-    grid: &Grid<D>,
-    places: &[Vector<D>],
-    traces: &[f64; BLOCK],
-    first: usize,
-    sums: &mut [Sum],
-) {
-    for (x, trace) in places.iter().zip(traces) {
-        let [total, number] = &mut sums[cell(grid, x) - first];
+impl<const D: usize> NullaryFnOnce for Find<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let grid = self.grid;
+        let (mut stride, n) = (1, self.places.len().min(BLOCK));
+        *self.cells = [0; BLOCK];
+        for a in 0..D {
+            let (per_h, last) = (1.0 / grid.h[a], grid.cells[a] as i32 - 1);
+            for (cell, x) in self.cells.iter_mut().zip(&self.places[..n]) {
+                let index = whole((x[a] - grid.origin[a]) * per_h - 0.5);
+                *cell += (index.clamp(0, last) * stride) as u32;
+            }
+            stride *= last + 2;
+        }
+    }
+}
+
+/// Adds the `traces` of points in `cells` to the sums of those, which start with number `first`.
+pub(super) fn add_traces(cells: &[u32], traces: &[f64], first: usize, sums: &mut [Sum]) {
+    for (&cell, trace) in cells.iter().zip(traces) {
+        let [total, number] = &mut sums[cell as usize - first];
         *total += trace;
         *number += 1.0;
     }
 }
 
-/// Gives points at `places` the traces of their cells times `scale`, in place of those of the matrix in
-/// lane `LANE` of `packed`.
+/// Gives points in `cells` the traces of those times `scale`, in place of those of the matrix in lane `LANE`
+/// of `packed`.
 pub(super) fn give_traces<const LANE: usize, const D: usize>(
-    grid: &Grid<D>,
-    places: &[Vector<D>],
-    packed: &mut [Packed<D>; BLOCK],
+    cells: &[u32],
+    packed: &mut [Packed<D>],
     scale: f64,
     means: &[f64],
 ) {
-    for (x, packed) in places.iter().zip(packed) {
+    for (&cell, packed) in cells.iter().zip(packed) {
         let trace: f64 = (0..D).map(|d| packed.columns[d][LANE][d]).sum();
-        let more = (scale * means[cell(grid, x)] - trace) / D as f64;
+        let more = (scale * means[cell as usize] - trace) / D as f64;
         for d in 0..D {
             packed.columns[d][LANE][d] += more;
         }

@@ -1,7 +1,7 @@
 //! What a region's passes do to a block of points.
 
 use super::columns::{Columns, Part};
-use super::fbar::{Diverge, give_traces};
+use super::fbar::{Diverge, Find, give_traces};
 use super::gather::Gather;
 use super::lanes::{PackMotion, Packed, Unpack};
 use super::law_blocks::{Advance, PackStress, StressTraces};
@@ -57,6 +57,19 @@ impl<B: Basis, L, const D: usize> Fixed<B, L, D> {
     }
 }
 
+impl<B, L, const D: usize> Fixed<B, L, D> {
+    /// The cells of a block of points.
+    pub fn cells(&self, places: &[Vector<D>]) -> [u32; BLOCK] {
+        let mut cells = [0; BLOCK];
+        self.arch.dispatch(Find {
+            grid: &self.grid,
+            places,
+            cells: &mut cells,
+        });
+        cells
+    }
+}
+
 impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
     /// Packs what a block of points gives to the nodes; with the traces of their stresses from `cells` where
     /// there are any.
@@ -87,8 +100,8 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
             packed,
         });
         if let Some(cells) = cells {
-            let places = &columns.place[block];
-            give_traces::<1, D>(&self.grid, places, packed, -self.volume, cells);
+            let own = self.cells(&columns.place[block.clone()]);
+            give_traces::<1, D>(&own[..block.len()], packed, -self.volume, cells);
         }
     }
 
@@ -181,7 +194,8 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
             _ => gather!(3),
         }
         if let Some(cells) = nodes.cells {
-            give_traces::<0, D>(&self.grid, block.place, &mut packed, 1.0, cells);
+            let own = self.cells(block.place);
+            give_traces::<0, D>(&own[..n], &mut packed, 1.0, cells);
         }
         macro_rules! unpack {
             ($affine:literal, $pic:expr) => {
