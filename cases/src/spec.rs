@@ -104,7 +104,7 @@ pub struct PointsSpec {
 pub struct FlowSpec {
     /// When the stress moves on.
     pub update: StressUpdate,
-    /// Share of the nodes' velocity that points take over in a step (`flip` alone).
+    /// Share of the nodes' velocity that points take over in a step (`flip`, `affine`).
     pub pic_share: f64,
     /// Whose change of volume the stress follows.
     pub volume: Volume,

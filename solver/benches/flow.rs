@@ -156,7 +156,7 @@ fn rates(c: &mut Criterion) {
         carry,
         mean_volumes: false,
     };
-    let (affine, flip) = (Carry::Affine, Carry::Flip { pic: 0.0 });
+    let (affine, flip) = (Carry::Affine { pic: 0.0 }, Carry::Flip { pic: 0.0 });
     let clay = kind(BasisKind::Gimp, von_mises, affine);
     for (name, kind) in [
         (
@@ -213,7 +213,7 @@ fn threads(_: &mut Criterion) {
     let kind = Kind {
         basis: BasisKind::Bspline,
         law: elastic,
-        carry: Carry::Affine,
+        carry: Carry::Affine { pic: 0.0 },
         mean_volumes: false,
     };
     let new = |cells, shared| Run::new(cells, kind, shared);

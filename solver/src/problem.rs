@@ -228,7 +228,7 @@ pub struct FlowSetup<const D: usize> {
     pub strength: Strength,
     /// When the stress moves on.
     pub update: StressUpdate,
-    /// Share of the nodes' velocity that points take over in a step, 0..1 (`flip` alone).
+    /// Share of the nodes' velocity that points take over in a step, 0..1 (`flip`, `affine`).
     pub pic_share: f64,
     /// Acceleration of the weight (m/s2), buoyancy taken off; along the second axis.
     pub gravity: f64,

@@ -76,7 +76,10 @@ fn run(flow: &mut dyn Flow<2>, grid: &Grid<2>, steps: &[usize]) -> Vec<u64> {
 #[test]
 fn points_take_what_they_say() {
     // place, velocity, a spare of either; stress and gradient twice; two keys
-    for (carry, bytes) in [(Carry::Flip { pic: 0.0 }, 104), (Carry::Affine, 168)] {
+    for (carry, bytes) in [
+        (Carry::Flip { pic: 0.0 }, 104),
+        (Carry::Affine { pic: 0.0 }, 168),
+    ] {
         let held = |rows: usize| {
             let mut kept = None;
             let memory = measure(|| kept = Some(block(rows, carry, false).1));
@@ -91,7 +94,7 @@ fn points_take_what_they_say() {
 
 #[test]
 fn steps_allocate_nothing() {
-    let (grid, mut flow) = block(30, Carry::Affine, false);
+    let (grid, mut flow) = block(30, Carry::Affine { pic: 0.0 }, false);
     let before = flow.total_momentum();
     // over these steps the block moves by several cells and is sorted many times
     let counts = run(flow.as_mut(), &grid, &[2, 100]);
@@ -106,7 +109,7 @@ fn steps_of_two_threads_allocate_nothing() {
         .num_threads(2)
         .build()
         .expect("two threads");
-    let (grid, mut flow) = block(30, Carry::Affine, true);
+    let (grid, mut flow) = block(30, Carry::Affine { pic: 0.0 }, true);
     let counts = pool.install(|| run(flow.as_mut(), &grid, &[40, 100]));
     assert_eq!(counts[1], 0);
 }

@@ -51,7 +51,7 @@ pub const FLOW: &[Field] = &[
     Field::new(
         "flow.pic_share",
         Kind::Number(Range::within(0.0, 1.0)),
-        "share of the nodes' velocity that points take over in a step (flip alone)",
+        "share of the nodes' velocity that points take over in a step (flip, affine)",
     ),
     Field::new(
         "flow.volume",

@@ -47,7 +47,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
             Some(stress) => stress.iter().map(|s| law.prestressed(s)).collect(),
             None => vec![L::State::default(); n],
         };
-        let affine = start.carry == Carry::Affine;
+        let affine = matches!(start.carry, Carry::Affine { .. });
         let cells = start.mean_volumes.then(|| Cells::new(&grid));
         let mut body = Body {
             strips: Strips::new(&grid, B::WIDTH),
@@ -292,7 +292,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Flow<D> for Body<B, L, D> {
     fn bytes_per_point(&self) -> usize {
         let (vector, state) = (size_of::<Vector<D>>(), size_of::<L::State>());
         let gradient = match self.fixed.carry {
-            Carry::Affine => size_of::<Matrix<D>>(),
+            Carry::Affine { .. } => size_of::<Matrix<D>>(),
             Carry::Flip { .. } => 0,
         };
         // places and velocities share a second copy

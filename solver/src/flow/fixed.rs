@@ -85,7 +85,7 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
             mass: self.mass,
             velocity: &columns.velocity[block.clone()],
             gradient: match self.carry {
-                Carry::Affine => &columns.gradient[block.clone()],
+                Carry::Affine { .. } => &columns.gradient[block.clone()],
                 Carry::Flip { .. } => &[],
             },
             packed,
@@ -210,7 +210,7 @@ impl<B: Basis, L: Law<D>, const D: usize> Fixed<B, L, D> {
             };
         }
         let finite = match self.carry {
-            Carry::Affine => unpack!(true, 0.0),
+            Carry::Affine { pic } => unpack!(true, pic),
             Carry::Flip { pic } => unpack!(false, pic),
         };
         if !finite {

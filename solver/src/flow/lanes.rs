@@ -94,7 +94,7 @@ pub(super) struct Unpack<'a, const D: usize, const AFFINE: bool, const KICK: boo
     pub packed: &'a [Packed<D>; BLOCK],
     /// The step (s).
     pub dt: f64,
-    /// Share of the nodes' velocity.
+    /// Share of the nodes' velocity and its gradient.
     pub pic: f64,
     pub place: &'a mut [Vector<D>],
     pub velocity: &'a mut [Vector<D>],
@@ -125,7 +125,10 @@ impl<const D: usize, const AFFINE: bool, const KICK: bool, const MOVE: bool> Nul
             if KICK && AFFINE {
                 let own = &mut self.gradient[p];
                 *own = std::array::from_fn(|i| {
-                    std::array::from_fn(|d| own[i][d] + self.dt * packed.columns[d][1][i])
+                    std::array::from_fn(|d| {
+                        let [v, a] = &packed.columns[d];
+                        keep * (own[i][d] + self.dt * a[i]) + self.pic * v[i]
+                    })
                 });
             }
         }

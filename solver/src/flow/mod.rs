@@ -2,13 +2,14 @@
 //!
 //! ```text
 //! to nodes    m_I = sum m N,   (m v)_I = sum m N [v_p + L_p (x_I - x_p)],   f_I = - sum V tau grad N
-//! to points   v_p' = (1 - eta) (v_p + dt sum N a) + eta sum N v',   L_p' = L_p + dt sum a (x) grad N
+//! to points   v_p' = (1 - eta) (v_p + dt sum N a) + eta sum N v'
+//!             L_p' = (1 - eta) (L_p + dt sum a (x) grad N) + eta sum v' (x) grad N
 //!             tau' from l = sum v' (x) grad N,                      x_p' = x_p + dt sum N v'
 //! ```
 //!
 //! `N` and `grad N` are those of the places at the start of the step; `tau` is the Kirchhoff stress and
 //! `V` the volume of the start, so that no point remembers its density. `L_p` belongs to the affine
-//! transfer alone, `eta` to flip. Stress last (USL): [`Flow::to_points`]. Modified USL (Sulsky, Zhou
+//! transfer alone. Stress last (USL): [`Flow::to_points`]. Modified USL (Sulsky, Zhou
 //! & Schreyer 1995): [`Flow::kick`], then momentum once more to the nodes by [`Flow::momentum`], then
 //! [`Flow::drift`] by the velocities that it gives.
 //!
@@ -83,7 +84,10 @@ impl<const D: usize> NodeSums<D> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Carry {
     /// Velocities with their gradients.
-    Affine,
+    Affine {
+        /// Share `eta` of the nodes' velocity and its gradient, 0..1: 0 forgets nothing, 1 is affine pic.
+        pic: f64,
+    },
     /// Velocities alone.
     Flip {
         /// Share `eta` of the nodes' velocity, 0..1: 0 is flip itself, 1 is pic.

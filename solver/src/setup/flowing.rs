@@ -37,10 +37,11 @@ pub(super) fn check<const D: usize>(problem: &Problem<D>) -> Result<(), SolverEr
     if !(0.0..=1.0).contains(&flow.pic_share) {
         return refuse("points.pic_share", "not between 0 and 1");
     }
-    if flow.pic_share > 0.0 && problem.transfer != Transfer::Flip {
+    let whole = matches!(problem.transfer, Transfer::Keep | Transfer::Pic);
+    if flow.pic_share > 0.0 && whole {
         return refuse(
             "points.pic_share",
-            "a share of pic goes with points.transfer = \"flip\"",
+            "a share of pic goes with points.transfer = \"flip\" or \"affine\"",
         );
     }
     if D == 3 && matches!(flow.strength, Strength::HerschelBulkley(_)) {
@@ -143,7 +144,9 @@ fn start<const D: usize>(
                 pic: problem.flow.pic_share,
             },
             Transfer::Pic => Carry::Flip { pic: 1.0 },
-            Transfer::Affine | Transfer::Keep => Carry::Affine,
+            Transfer::Affine | Transfer::Keep => Carry::Affine {
+                pic: problem.flow.pic_share,
+            },
         },
         mean_volumes: problem.flow.mean_volumes,
         shared: problem.flow.shared,

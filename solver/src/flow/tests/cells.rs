@@ -89,7 +89,7 @@ where
 #[test]
 fn what_splashes_does_not_blow_up() {
     for basis in [BasisKind::Gimp, BasisKind::Bspline] {
-        for (carry, courant) in [(Carry::Affine, 0.2), (Carry::Affine, 0.4), (FLIP, 0.4)] {
+        for (carry, courant) in [(AFFINE, 0.2), (AFFINE, 0.4), (FLIP, 0.4)] {
             let gain = splash(basis, carry, courant);
             println!(
                 "{basis:?} {carry:?}, Courant {courant}: elastic energy up to {gain:.3} of its start"

@@ -50,7 +50,7 @@ fn free(carry: Carry) -> Start<2> {
 
 #[test]
 fn one_thread_and_two_give_the_same_bits() {
-    for carry in [Carry::Affine, FLIP] {
+    for carry in [AFFINE, FLIP] {
         let mut start = free(carry);
         start.mean_volumes = carry == FLIP;
         let nodes = start.grid.node_count();
@@ -76,7 +76,7 @@ fn one_thread_and_two_give_the_same_bits() {
 
 #[test]
 fn the_order_of_points_at_the_start_changes_nothing_but_rounding() {
-    let start = free(Carry::Affine);
+    let start = free(AFFINE);
     let nodes = start.grid.node_count();
     let mut turned = start.clone();
     turned.places.reverse();
