@@ -12,7 +12,7 @@ const WIDE: f64 = 36.0;
 const GRADIENTS: f64 = 8.0;
 const VON_MISES: f64 = 10.0;
 const HERSCHEL_BULKLEY: f64 = 30.0;
-const MEAN_VOLUMES: f64 = 12.0;
+const MEAN_VOLUMES: f64 = 27.0;
 
 impl<const D: usize> Clerk<'_, D> {
     /// Does explicit motion carry the body's points?
