@@ -46,7 +46,7 @@ fn run(flow: &mut dyn Flow<2>, grid: &Grid<2>, steps: &[usize]) -> Vec<u64> {
     let nodes = grid.node_count();
     let (mut sums, dt) = (NodeSums::new(nodes), 0.4 / ELASTIC.p_speed());
     let (mut v, mut a) = (vec![[0.0; 2]; nodes], vec![[0.0; 2]; nodes]);
-    let mut surface = Surface::new(grid, ELASTIC.density, 4);
+    let mut surface = Surface::new(grid, ELASTIC.density);
     let mut counts = Vec::with_capacity(steps.len());
     for &n in steps {
         let memory = measure(|| {

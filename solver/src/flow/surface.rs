@@ -25,11 +25,6 @@ use crate::tensor::Vector;
 /// A node is faint below this share of the mass of a full cell; as in [`crate::basis`].
 const FAINT: f64 = 5e-3;
 
-/// Below this share of a point's mass a node is too light for its forces. Functions that are folded at the
-/// grid's ends are linear there: a lone point at a share x of a cell from a wall has x of its mass at the next
-/// node and `omega^2 = c^2/(h^2 x)`, beyond bounds. With this much `omega dt < 2` up to Courant numbers of 0.6.
-const LIGHT: f64 = 0.1;
-
 /// A node is firm from this share on: what is folded onto it weighs next to nothing beside that.
 const FIRM: f64 = 0.25;
 
@@ -59,7 +54,6 @@ pub struct Surface<const D: usize> {
     grid: Grid<D>,
     faint: f64,
     firm: f64,
-    light: f64,
     kinds: Vec<Kind>,
     /// Faint nodes, those nearest to the bodies first.
     leans: Vec<Lean>,
@@ -68,14 +62,13 @@ pub struct Surface<const D: usize> {
 }
 
 impl<const D: usize> Surface<D> {
-    /// For bodies whose full cells of `per_cell` points weigh `cell_mass` (kg), the lightest of them.
-    pub fn new(grid: &Grid<D>, cell_mass: f64, per_cell: usize) -> Self {
+    /// For bodies whose full cells weigh `cell_mass` (kg), the lightest of them.
+    pub fn new(grid: &Grid<D>, cell_mass: f64) -> Self {
         let nodes = grid.node_count();
         Surface {
             grid: grid.clone(),
             faint: FAINT * cell_mass,
             firm: FIRM * cell_mass,
-            light: LIGHT * cell_mass / per_cell as f64,
             kinds: vec![Kind::Void; nodes],
             leans: Vec::with_capacity(nodes),
             rest: Vec::with_capacity(nodes),
@@ -93,15 +86,6 @@ impl<const D: usize> Surface<D> {
         }
         self.fold_field(&mut sums.momentum);
         self.fold_field(&mut sums.force);
-    }
-
-    /// Takes from nodes that are too light for their forces what is too much.
-    pub fn lighten(&self, sums: &mut NodeSums<D>) {
-        for (force, m) in sums.force.iter_mut().zip(&sums.mass) {
-            if *m < self.light {
-                *force = force.map(|f| f * m / self.light);
-            }
-        }
     }
 
     /// The same with the same nodes for one field of sums: momenta after a kick.

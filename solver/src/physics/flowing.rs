@@ -133,7 +133,6 @@ impl<const D: usize> Model<D> {
         }
         if let Some(surface) = &mut flow.surface {
             surface.fold(&mut flow.sums);
-            surface.lighten(&mut flow.sums);
         }
         let nodes = &mut self.nodes;
         for (saved, &n) in self.kept.saved.iter_mut().zip(&self.kept.nodes) {

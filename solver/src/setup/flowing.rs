@@ -98,12 +98,11 @@ where
     let nodes = geometry.grid.node_count();
     let resting = held_at_start(problem, geometry, layers, &gravity)?;
     let cell_mass = problem.material.density * geometry.grid.h.iter().product::<f64>();
-    let per_cell = geometry.per_axis.pow(D as u32);
     let wide = problem.basis != BasisKind::Linear;
     Ok(Flowing::new(
         parts?,
         nodes,
-        wide.then(|| Surface::new(&geometry.grid, cell_mass, per_cell)),
+        wide.then(|| Surface::new(&geometry.grid, cell_mass)),
         gravity,
         problem.flow.update,
         resting,

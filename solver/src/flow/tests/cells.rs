@@ -1,5 +1,4 @@
 use super::*;
-use crate::flow::surface::Surface;
 use crate::tensor::{contract, trace};
 
 /// `l` of each point by the general discretisation, with the mean trace of its cell's points.
@@ -91,12 +90,7 @@ where
 fn what_splashes_does_not_blow_up() {
     for basis in [BasisKind::Gimp, BasisKind::Bspline] {
         for (carry, courant) in [(AFFINE, 0.2), (AFFINE, 0.4), (FLIP, 0.4)] {
-            let inner = |k: usize, a: usize| {
-                let (grid, cells) = (grid::<2>(), grid::<2>().cells[a] as f64);
-                grid.origin[a] + grid.h[a] * (2.0 + (cells - 4.0) * fraction(k, a))
-            };
-            let places = (0..40).map(|k| [inner(k, 0), inner(k, 1)]).collect();
-            let gain = splash(basis, carry, courant, places);
+            let gain = splash(basis, carry, courant);
             println!(
                 "{basis:?} {carry:?}, Courant {courant}: elastic energy up to {gain:.3} of its start"
             );
@@ -106,10 +100,15 @@ fn what_splashes_does_not_blow_up() {
 }
 
 /// Most elastic energy of such points in 400 steps, over that at the start.
-fn splash(basis: BasisKind, carry: Carry, courant: f64, places: Vec<Vector<2>>) -> f64 {
+fn splash(basis: BasisKind, carry: Carry, courant: f64) -> f64 {
     let mut start = cloud::<2>(basis, carry);
     let (grid, h) = (grid::<2>(), 0.25);
-    start.places = places;
+    // beyond the outer cells, where functions would be folded
+    let inner = |k: usize, a: usize| {
+        let cells = grid.cells[a] as f64;
+        grid.origin[a] + grid.h[a] * (2.0 + (cells - 4.0) * fraction(k, a))
+    };
+    start.places = (0..40).map(|k| [inner(k, 0), inner(k, 1)]).collect();
     start.velocities = vec![[0.0; 2]; start.places.len()];
     start.stress = Some(vec![[[-1.0, 0.0], [0.0, -1.0]]; start.places.len()]);
     start.volume = 0.25 * grid.h[0] * grid.h[1];
@@ -117,47 +116,21 @@ fn splash(basis: BasisKind, carry: Carry, courant: f64, places: Vec<Vector<2>>) 
     let mut flow = flow(law(), start).expect("within the grid");
     let dt = courant * h / ELASTIC.p_speed();
     let (mut sums, first) = (NodeSums::new(grid.node_count()), flow.strain_energy());
-    let mut surface = Surface::new(
-        &grid,
-        4.0 * 0.25 * ELASTIC.density * grid.h[0] * grid.h[1],
-        4,
-    );
     let mut most = first;
     for _ in 0..400 {
         sums.clear();
         flow.to_nodes(&mut sums).expect("within the grid");
-        surface.fold(&mut sums);
-        surface.lighten(&mut sums);
         let per_mass = |x: &[Vector<2>]| -> Vec<Vector<2>> {
             let nodes = x.iter().zip(&sums.mass);
             let over = |(x, m): (&Vector<2>, &f64)| x.map(|x| if *m > 0.0 { x / m } else { 0.0 });
             nodes.map(over).collect()
         };
-        let (mut a, mut v) = (per_mass(&sums.force), per_mass(&sums.momentum));
+        let (a, mut v) = (per_mass(&sums.force), per_mass(&sums.momentum));
         for (v, a) in v.iter_mut().zip(&a) {
             *v = std::array::from_fn(|i| v[i] + dt * a[i]);
         }
-        surface.follow(&mut v);
-        surface.follow(&mut a);
         flow.to_points(&v, &a, dt).expect("a sound step");
         most = most.max(flow.strain_energy());
     }
     most / first
-}
-
-/// A lone pressed point at a hundredth of a cell from an end of the grid, where functions are folded and the
-/// next node has a hundredth of its mass: `omega dt` is 4 there, and without relief the point is inverted. With
-/// it, 1.26: the energy of stresses half a step from velocities breathes by `1/(1 - (omega dt/2)^2)`, 1.7.
-#[test]
-fn a_lone_point_at_a_wall_does_not_blow_up() {
-    for basis in [BasisKind::Gimp, BasisKind::Bspline] {
-        let grid = grid::<2>();
-        let place = [
-            grid.origin[0] + 2.3 * grid.h[0],
-            grid.origin[1] + 0.01 * grid.h[1],
-        ];
-        let gain = splash(basis, AFFINE, 0.4, vec![place]);
-        println!("{basis:?}: elastic energy up to {gain:.3} of its start");
-        assert!(gain < 2.0, "{gain}");
-    }
 }

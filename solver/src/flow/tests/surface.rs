@@ -35,7 +35,7 @@ fn folded(start: &Start<2>) -> (NodeSums<2>, NodeSums<2>, Surface<2>, Box<dyn Fl
     let mut flow = flow(law(), start.clone()).expect("within the grid");
     let mut sums = NodeSums::new(start.grid.node_count());
     flow.to_nodes(&mut sums).expect("within the grid");
-    let mut surface = Surface::new(&start.grid, 4.0 * start.density * start.volume, 4);
+    let mut surface = Surface::new(&start.grid, 4.0 * start.density * start.volume);
     let whole = sums.clone();
     surface.fold(&mut sums);
     (whole, sums, surface, flow)
