@@ -24,7 +24,7 @@ const LAST: f64 = 0.05;
 pub struct Unloaded {
     /// Growth rate of the second half (1/s), where the load is over by then.
     pub rate: Option<Slope>,
-    /// Largest energy of the last twentieth of the run over the largest until the load ends.
+    /// Largest energy of the last twentieth of the run over the largest until the first sample without load.
     pub over_loaded: f64,
     /// The same over the largest of the twentieth before the middle of the run.
     pub over_middle: f64,
@@ -48,6 +48,8 @@ impl Unloaded {
             let values = energy[range].iter().copied();
             Ok::<f64, NormError>(values.fold(f64::NEG_INFINITY, f64::max))
         };
+        // a long run is sampled so rarely that all of the load may lie between two samples
+        let loaded = times.iter().copied().find(|t| *t >= load_end);
         // empty where the load is not over
         let last = largest((end - width).max(load_end), end)?;
         Ok(Unloaded {
@@ -56,7 +58,7 @@ impl Unloaded {
             } else {
                 None
             },
-            over_loaded: last / largest(f64::NEG_INFINITY, load_end)?,
+            over_loaded: last / largest(f64::NEG_INFINITY, loaded.unwrap_or(end))?,
             over_middle: last / largest(middle - width, middle)?,
         })
     }
@@ -103,6 +105,20 @@ mod tests {
         let unloaded = run(10.0, |t| (7.0 * t).exp());
         assert!(unloaded.grows() && unloaded.runs_away());
         assert!((unloaded.rate.expect("the load is over").value - 7.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_load_between_two_samples_has_brought_its_energy() {
+        let times: Vec<f64> = (0..=200).map(|i| 5.0 * f64::from(i)).collect();
+        let run = |after: fn(f64) -> f64| {
+            let energy: Vec<f64> = times.iter().map(|t| t.min(1.0) * after(*t)).collect();
+            Unloaded::of(&times, &energy, 1.0).expect("defined")
+        };
+        for after in [|_| 3.0, |t: f64| (-0.002 * t).exp()] {
+            let unloaded = run(after);
+            assert!(!unloaded.grows() && !unloaded.runs_away(), "{unloaded:?}");
+        }
+        assert!(run(|t| (0.01 * t).exp()).runs_away());
     }
 
     #[test]
