@@ -148,7 +148,7 @@ fn blow(offset: f64, reach: f64, by_points: bool) -> Blow {
     let mean = pressures.iter().sum::<f64>() / count;
     let variance = pressures.iter().map(|p| (p - mean).powi(2)).sum::<f64>() / count;
     Blow {
-        early: early.unwrap(),
+        early: early.expect("the column touches"),
         mean,
         scatter: variance.sqrt() / mean,
         depth,

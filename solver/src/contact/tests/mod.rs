@@ -35,7 +35,7 @@ fn without_friction_only_the_approach_is_taken() {
     assert!(approach < 0.0);
     let response = contact(0.0)
         .respond(MASS, &velocity, &BODY, &NORMAL, 1.0)
-        .unwrap();
+        .expect("it is touched");
     let (after, slide_after) = parts(&response.velocity);
     assert!(after.abs() < 1e-14);
     assert!((slide_after - slide).abs() < 1e-14);
@@ -103,7 +103,7 @@ fn sticking_turns_to_sliding_at_the_coefficient() {
     ];
     let left = |friction| {
         let response = contact(friction).respond(MASS, &velocity, &BODY, &NORMAL, 1.0);
-        parts(&response.unwrap().velocity).1
+        parts(&response.expect("it is touched").velocity).1
     };
     assert!(left(0.5001).abs() < 1e-14);
     assert!((left(0.4) - 0.1).abs() < 1e-14);
@@ -131,7 +131,7 @@ fn friction_in_three_dimensions_is_against_the_slide() {
     let contact = contact(0.5);
     let response = contact
         .respond(1.0, &[3.0, 4.0, -2.0], &[0.0; 3], &[0.0, 0.0, 1.0], 1.0)
-        .unwrap();
+        .expect("it is touched");
     // Normal impulse 2, so 1 along the slide of 5 in the direction (0.6, 0.8).
     let expected = [-0.6, -0.8, 2.0];
     for (own, other) in response.impulse.iter().zip(expected) {
@@ -145,7 +145,7 @@ fn part_of_a_touch_takes_part_of_the_approach_and_less_friction() {
     assert!((parts(&velocity).0 + 1.0).abs() < 1e-14 && (parts(&velocity).1 - 1.0).abs() < 1e-14);
     let response = contact(0.5)
         .respond(MASS, &velocity, &BODY, &NORMAL, 0.4)
-        .unwrap();
+        .expect("it is touched");
     let (normal, slide) = parts(&response.velocity);
     // 0.4 of the approach of 1, and half of that off the slide of 1.
     assert!((normal + 0.6).abs() < 1e-14);

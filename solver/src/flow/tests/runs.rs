@@ -114,7 +114,15 @@ fn points_far_from_where_they_were_sorted_are_seen() {
 
 #[test]
 fn faults_name_the_point() {
-    let start = free(FLIP);
+    for mean_volumes in [false, true] {
+        check_faults(Start {
+            mean_volumes,
+            ..free(FLIP)
+        });
+    }
+}
+
+fn check_faults(start: Start<2>) {
     let nodes = start.grid.node_count();
     let new = || flow(law(), start.clone()).expect("within the grid");
     let mut sums = NodeSums::new(nodes);
@@ -122,11 +130,11 @@ fn faults_name_the_point() {
     let mut lost = new();
     lost.drift(&vec![[100.0, 0.0]; nodes], 1.0)
         .expect("a sound step");
-    let place = match lost.to_nodes(&mut sums) {
-        Err(Fault::Left { place }) => place,
-        other => panic!("{other:?}"),
-    };
-    assert!(place[0] > 90.0);
+    let left = lost.to_nodes(&mut sums);
+    assert!(
+        matches!(left, Err(Fault::Left { place }) if place[0] > 90.0),
+        "{left:?}"
+    );
 
     let mut torn = new();
     let v = linear_field(&start.grid, &[[-2.0, 0.0], [0.0, 0.0]]);
