@@ -17,6 +17,17 @@
 //! its own functions is bounded by `omega^2 <= c^2 max sum |grad N|^2/N`, however little they weigh, but
 //! folding makes points act on nodes that they do not see, and those have to be firm. A faint node without
 //! one stays as it is, as around single points and in splashes.
+//!
+//! The ends of the grid are another matter. Wide functions are folded there and linear: points that are all
+//! within a share x of a cell from an end give the node next to it a share x of their mass and all of their
+//! force, `omega^2 = c^2/(h^2 x)` without bound. Such a light node F sticks to the end's node E,
+//!
+//! ```text
+//! s_E += s_F,   s_F = 0,   v_F = v_E,
+//! ```
+//!
+//! adjoint as well, so that masses, momenta and work are kept, though not linear fields: a film thinner than a
+//! tenth of a cell moves as one with what is next to it.
 
 use super::NodeSums;
 use crate::grid::Grid;
@@ -27,6 +38,10 @@ const FAINT: f64 = 5e-3;
 
 /// A node is firm from this share on: what is folded onto it weighs next to nothing beside that.
 const FIRM: f64 = 0.25;
+
+/// A node next to an end of the grid is light below this share of the end node's mass. What is not light has
+/// `omega^2 <= c^2/h^2 (1/LIGHT + 8)` at most: `omega dt < 2` up to Courant numbers of 0.47.
+const LIGHT: f64 = 0.1;
 
 /// What a node is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,12 +74,17 @@ pub struct Surface<const D: usize> {
     leans: Vec<Lean>,
     /// Faint nodes without a lean.
     rest: Vec<u32>,
+    /// Nodes next to an end of the grid, and the nodes on it: axis by axis.
+    ends: Vec<[u32; 2]>,
+    /// Light nodes and the nodes that they stick to, which may stick to later ones.
+    stuck: Vec<[u32; 2]>,
 }
 
 impl<const D: usize> Surface<D> {
     /// For bodies whose full cells weigh `cell_mass` (kg), the lightest of them.
     pub fn new(grid: &Grid<D>, cell_mass: f64) -> Self {
         let nodes = grid.node_count();
+        let ends = ends(grid);
         Surface {
             grid: grid.clone(),
             faint: FAINT * cell_mass,
@@ -72,6 +92,8 @@ impl<const D: usize> Surface<D> {
             kinds: vec![Kind::Void; nodes],
             leans: Vec::with_capacity(nodes),
             rest: Vec::with_capacity(nodes),
+            stuck: Vec::with_capacity(ends.len()),
+            ends,
         }
     }
 
@@ -84,6 +106,7 @@ impl<const D: usize> Surface<D> {
             sums.mass[one] += 2.0 * mass;
             sums.mass[two] -= mass;
         }
+        self.stick(&mut sums.mass);
         self.fold_field(&mut sums.momentum);
         self.fold_field(&mut sums.force);
     }
@@ -98,10 +121,19 @@ impl<const D: usize> Surface<D> {
                 sums[two][i] -= s[i];
             }
         }
+        for &[node, end] in &self.stuck {
+            let s = std::mem::replace(&mut sums[node as usize], [0.0; D]);
+            for i in 0..D {
+                sums[end as usize][i] += s[i];
+            }
+        }
     }
 
     /// Lets the faint nodes follow those before them: velocities or accelerations.
     pub fn follow(&self, field: &mut [Vector<D>]) {
+        for &[node, end] in self.stuck.iter().rev() {
+            field[node as usize] = field[end as usize];
+        }
         for lean in &self.leans {
             let [node, one, two] = lean.line();
             field[node] = std::array::from_fn(|i| 2.0 * field[one][i] - field[two][i]);
@@ -145,6 +177,19 @@ impl<const D: usize> Surface<D> {
         }
     }
 
+    /// Finds the light nodes by what they have once faint ones are folded and gives it to the ends: axis by axis,
+    /// so that what is light along several sticks to an edge or a corner.
+    fn stick(&mut self, mass: &mut [f64]) {
+        self.stuck.clear();
+        for &[node, end] in &self.ends {
+            let m = mass[node as usize];
+            if m > 0.0 && m < LIGHT * mass[end as usize] {
+                mass[end as usize] += std::mem::replace(&mut mass[node as usize], 0.0);
+                self.stuck.push([node, end]);
+            }
+        }
+    }
+
     /// Two nodes in a row before a faint one that are solid, the second of them firm, or lean since an
     /// earlier turn: along the axis and the way on which the first has most mass.
     fn lean(&self, node: usize, turn: u8, mass: &[f64]) -> Option<Lean> {
@@ -183,6 +228,25 @@ impl<const D: usize> Surface<D> {
         }
         best.map(|(_, lean)| lean)
     }
+}
+
+/// The nodes next to the ends of a grid of at least two cells an axis, with those on the ends.
+fn ends<const D: usize>(grid: &Grid<D>) -> Vec<[u32; 2]> {
+    let mut pairs = Vec::new();
+    for a in 0..D {
+        let last = grid.cells[a];
+        for node in 0..grid.node_count() {
+            let mut index = grid.lattice(node);
+            for (next, end) in [(1, 0), (last - 1, last)] {
+                if index[a] == next {
+                    index[a] = end;
+                    pairs.push([node as u32, grid.node(index) as u32]);
+                    index[a] = next;
+                }
+            }
+        }
+    }
+    pairs
 }
 
 impl Lean {
