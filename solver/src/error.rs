@@ -98,3 +98,20 @@ pub enum SolverError {
         reason: String,
     },
 }
+
+impl SolverError {
+    /// The same with its place (m) as seen from where a frame that moves at `velocity` (m/s) comes from.
+    pub(crate) fn out_of_frame(mut self, velocity: &[f64]) -> Self {
+        use SolverError::{InvertedPoint, LeftGrid, NonFinite, NotConverged};
+        if let NotConverged { place, time_s, .. }
+        | NonFinite { place, time_s, .. }
+        | InvertedPoint { place, time_s, .. }
+        | LeftGrid { place, time_s, .. } = &mut self
+        {
+            for (x, v) in place.iter_mut().zip(velocity) {
+                *x += v * *time_s;
+            }
+        }
+        self
+    }
+}

@@ -58,6 +58,7 @@ impl<const D: usize> Geometry<D> {
         }
         refused::size(problem, &material_box, &h, &assigned)?;
         refused::corners(&assigned)?;
+        refused::moving_layers(problem, &assigned)?;
         refused::width(problem, &material_box, &h)?;
         refused::inclusion(problem, &h, &assigned)?;
         let grid = Grid {

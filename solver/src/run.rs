@@ -59,6 +59,7 @@ pub(crate) fn run_model<const D: usize>(
             &mut record,
         );
         if let Err(failure) = made {
+            let failure = failure.out_of_frame(&model.frame);
             record.status = Status::Failed(failure.to_string());
             error = Some(failure);
             break;

@@ -1,4 +1,5 @@
-//! Fills a record while the model moves.
+//! Fills a record while the model moves. What is recorded is not in the model's frame; tracers, fields and lines go
+//! along with it.
 
 use crate::basis::Sample;
 use crate::physics::model::Model;
@@ -149,7 +150,8 @@ impl<const D: usize> Sampler<D> {
         {
             if step.is_multiple_of(line.every) {
                 out.times.push(t);
-                let component = |s: &Sample| velocity(model, s)[line.component];
+                let i = line.component;
+                let component = |s: &Sample| velocity(model, s)[i] + model.frame[i];
                 out.values.extend(samples.iter().map(component));
             }
         }
@@ -178,8 +180,8 @@ impl<const D: usize> Sampler<D> {
         let columns = out.columns.chunks_exact_mut(2 * D);
         for (tracer, columns) in self.tracers.iter().zip(columns) {
             let velocity = velocity(model, &tracer.sample);
-            for (column, v) in columns[D..].iter_mut().zip(velocity) {
-                column.values.push(v);
+            for (i, column) in columns[D..].iter_mut().enumerate() {
+                column.values.push(velocity[i] + model.frame[i]);
             }
         }
     }
@@ -203,8 +205,9 @@ impl<const D: usize> Sampler<D> {
                     tracer.place[i] += if moving { increment[i] } else { 0.0 };
                 }
             }
-            for (column, u) in columns.iter_mut().zip(tracer.displacement) {
-                column.values.push(u);
+            for (i, column) in columns[..D].iter_mut().enumerate() {
+                let way = model.frame[i] * t;
+                column.values.push(tracer.displacement[i] + way);
             }
             if moving {
                 model.disc.sample_into(&tracer.place, &mut tracer.sample);
@@ -260,7 +263,7 @@ fn velocity_field<const D: usize>(problem: &Problem<D>, model: &Model<D>, t: f64
     let (mut counts, mut origin, mut spacing) = ([1; 3], [0.0; 3], [0.0; 3]);
     for a in 0..D {
         counts[a] = (nodes_along(a) - 1) / stride + 1;
-        origin[a] = grid.origin[a] + grid.h[a] * first[a] as f64;
+        origin[a] = grid.origin[a] + grid.h[a] * first[a] as f64 + model.frame[a] * t;
         spacing[a] = grid.h[a] * stride as f64;
     }
     let node = |k: usize| {
@@ -275,7 +278,7 @@ fn velocity_field<const D: usize>(problem: &Problem<D>, model: &Model<D>, t: f64
     let total = counts.iter().product();
     let (nodes, lag) = (&model.nodes, model.velocity_lag());
     let value = |n: usize, i: usize| match nodes.active[n] {
-        true => nodes.v[n][i] + lag * nodes.a[n][i],
+        true => nodes.v[n][i] + lag * nodes.a[n][i] + model.frame[i],
         false => 0.0,
     };
     let columns = (0..D).map(|i| Column {

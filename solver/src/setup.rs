@@ -1,6 +1,7 @@
 //! From a problem to a model: points, regions, terms.
 
 mod flowing;
+mod frame;
 
 use crate::basis::on_grid;
 use crate::boundary::{self, Assigned, Context, DisplacementTransfer, LayerPoints};
@@ -29,8 +30,13 @@ where
     Space: Dimension<D>,
 {
     let geometry = Geometry::new(problem)?;
-    let frozen = problem.point_mode == PointMode::Frozen;
     flowing::check(problem)?;
+    let framed = frame::of_layers(problem, &geometry);
+    let (problem, frame) = match &framed {
+        Some(framed) => (&framed.problem, framed.velocity),
+        None => (problem, [0.0; D]),
+    };
+    let frozen = problem.point_mode == PointMode::Frozen;
     let Filled {
         mut points,
         mut ranges,
@@ -84,7 +90,7 @@ where
     points.inertia = inertia;
     terms.extend(drives(problem, &geometry));
     if let Some(flow) = &flow {
-        terms.extend(flowing::intruders(problem, &geometry, flow)?);
+        terms.extend(flowing::intruders(problem, frame, &geometry, flow)?);
     }
     let carries = flow.is_none() && problem.transfer != Transfer::Keep;
     if carries && problem.scheme != Scheme::QuasiStatic {
@@ -107,6 +113,7 @@ where
         regions,
         terms,
         flow,
+        frame,
         movable: (!frozen).then_some(movable),
         first_kept: if problem.transfer == Transfer::Keep {
             0

@@ -57,6 +57,11 @@ pub enum LayerPoints {
 }
 
 impl Layout {
+    /// Are there points that rest?
+    pub fn rests(&self) -> bool {
+        self.layer == Some(LayerPoints::Kept)
+    }
+
     /// Nothing added, the body's own side held by `end`.
     pub fn plain(end: End) -> Self {
         Layout {

@@ -12,6 +12,7 @@
 //! P_ij = sum_k C_ijkj (g_kj + r_j phi_kj) + sum_{l /= j} sum_k C_ijkl g_kl
 //! ```
 //!
+//! Where the material starts with a velocity, all this is so in the frame that moves along: setup/frame.rs.
 //! The points of the layer rest and its nodes keep their motion; the outer edge is fixed. This is the layer
 //! of the plane; in three dimensions it remembers more: solid.rs.
 //!
@@ -143,11 +144,6 @@ pub(crate) fn layout<const D: usize>(
     if flip && !forced {
         return refuse(
             "unstable with points.transfer = \"flip\", whose motion is filtered and the layer's damping is not; use \"affine\", or pml.with_flip = \"force\" to see it grow",
-        );
-    }
-    if problem.flow.velocity != [0.0; D] {
-        return refuse(
-            "the layer stands still, and material that flows through it is reflected; use damping-layer, which moves along",
         );
     }
     one_shift(problem, side, method)?;

@@ -3,6 +3,7 @@
 
 use super::{Contact, point_gap, reaction};
 use crate::contact::body::RigidBody;
+use crate::contact::shape::Distance;
 use crate::grid::Grid;
 use crate::physics::kernel::{NodeTerm, Reading, Step};
 use crate::problem::Intruder;
@@ -22,6 +23,8 @@ pub(crate) struct Touch<const D: usize> {
     reached: Vec<u32>,
     /// Of the fastest wave (m/s).
     speed: f64,
+    /// Velocity (m/s) of the frame that places and velocities are in.
+    frame: Vector<2>,
     step: u32,
     impulse: Vector<D>,
     dt: f64,
@@ -31,13 +34,14 @@ pub(crate) struct Touch<const D: usize> {
 
 impl<const D: usize> Touch<D> {
     /// Of `intruder` with material of wave `speed` (m/s) on `grid`, filled with `per_axis` points along
-    /// each axis of a cell, each reaching nodes within `reach` cells.
+    /// each axis of a cell, each reaching nodes within `reach` cells; all in a frame that moves at `frame` (m/s).
     pub(crate) fn new(
         intruder: &Intruder,
         grid: &Grid<D>,
         per_axis: usize,
         reach: f64,
         speed: f64,
+        frame: Vector<D>,
     ) -> Self {
         Touch {
             name: intruder.name.clone(),
@@ -46,6 +50,7 @@ impl<const D: usize> Touch<D> {
             half_extent: grid.h.map(|h| 0.5 * h / per_axis as f64),
             reach: grid.h.map(|h| reach * h),
             speed,
+            frame: [frame[0], frame[1]],
             reached: vec![0; grid.node_count()],
             grid: grid.clone(),
             step: 0,
@@ -56,12 +61,20 @@ impl<const D: usize> Touch<D> {
         }
     }
 
+    /// Distance of the place `x` (m) and normal, at `time` (s).
+    #[inline]
+    fn distance(&self, x: &Vector<D>, time: f64) -> Distance {
+        let [v, w] = self.frame;
+        self.body
+            .distance(&[x[0] + v * time, x[1] + w * time], time)
+    }
+
     /// Marks the nodes that touching points reach, and looks for the deepest point.
     fn look(&mut self, places: &[Vector<D>], time: f64) {
         self.step += 1;
         self.deepest = 0.0;
         for x in places {
-            let distance = self.body.distance(&[x[0], x[1]], time);
+            let distance = self.distance(x, time);
             self.deepest = self.deepest.max(-distance.gap);
             let normal = in_space(distance.normal);
             if point_gap(distance.gap, &self.half_extent, &normal) <= 0.0 {
@@ -104,7 +117,8 @@ impl<const D: usize> NodeTerm<D> for Touch<D> {
         self.look(step.places, start);
         (self.dt, self.end) = (end - start, end);
         self.impulse = [0.0; D];
-        let velocity = in_space(self.body.velocity(start, self.dt));
+        let own = self.body.velocity(start, self.dt);
+        let velocity = in_space([own[0] - self.frame[0], own[1] - self.frame[1]]);
         let h = self.grid.h[..2].iter().copied().fold(0.0, f64::max);
         let courant = self.speed * self.dt / h;
         for (node, v) in v.iter_mut().enumerate() {
@@ -112,7 +126,7 @@ impl<const D: usize> NodeTerm<D> for Touch<D> {
                 continue;
             }
             let x = self.grid.node_place(node);
-            let distance = self.body.distance(&[x[0], x[1]], start);
+            let distance = self.distance(&x, start);
             // a point that touches has reached the node
             let share = self.contact.share(distance.gap, 0.0, h, courant);
             let normal = in_space(distance.normal);

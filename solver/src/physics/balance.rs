@@ -1,4 +1,8 @@
-//! Energy and momentum of a model.
+//! Energy and momentum of a model. With the mass M and the momentum P' in a frame that moves at V,
+//!
+//! ```text
+//! E = E' + V . P' + M V^2/2,   P = P' + M V
+//! ```
 
 use super::model::Model;
 use crate::points::{BLOCK, blocks};
@@ -22,6 +26,35 @@ impl<const D: usize> Model<D> {
     /// Where nodes keep the motion a point's share is that of its lumped mass, or that of its own
     /// velocity where masses are consistent.
     pub fn kinetic_energy(&self, target_only: bool) -> f64 {
+        let own = self.own_kinetic_energy(target_only);
+        if self.frame == [0.0; D] {
+            return own;
+        }
+        let (mass, momentum) = (self.mass(target_only), self.own_momentum(target_only));
+        let along = self.frame.iter().zip(momentum);
+        own + along.map(|(v, p)| v * p + 0.5 * mass * v * v).sum::<f64>()
+    }
+
+    /// Linear momentum of everything (kg m/s).
+    pub fn momentum(&self) -> Vector<D> {
+        let own = self.own_momentum(false);
+        if self.frame == [0.0; D] {
+            return own;
+        }
+        let mass = self.mass(false);
+        std::array::from_fn(|i| own[i] + mass * self.frame[i])
+    }
+
+    /// Mass (kg) of the target alone or of everything.
+    fn mass(&self, target_only: bool) -> f64 {
+        let regions = self.regions.iter().filter(|r| r.in_target || !target_only);
+        let masses = regions.flat_map(|r| &self.points.mass[r.range.clone()]);
+        let flow = self.flow.iter().map(|flow| flow.mass(target_only));
+        masses.sum::<f64>() + flow.sum::<f64>()
+    }
+
+    /// Kinetic energy in the frame.
+    fn own_kinetic_energy(&self, target_only: bool) -> f64 {
         let mut energy = 0.0;
         let mut squares = [[0.0; D]; BLOCK];
         let squared: Vec<Vector<D>> = self.nodes.v.iter().map(|v| v.map(|x| x * x)).collect();
@@ -51,11 +84,12 @@ impl<const D: usize> Model<D> {
         energy + flow.sum::<f64>()
     }
 
-    /// Linear momentum of everything (kg m/s).
-    pub fn momentum(&self) -> Vector<D> {
+    /// Momentum in the frame.
+    fn own_momentum(&self, target_only: bool) -> Vector<D> {
         let mut sum = [0.0; D];
         let mut velocity = [[0.0; D]; BLOCK];
-        for block in blocks(0..self.points.len()) {
+        let regions = self.regions.iter().filter(|r| r.in_target || !target_only);
+        for block in regions.flat_map(|r| blocks(r.range.clone())) {
             let velocity = &mut velocity[..block.len()];
             match &self.points.motion {
                 Some(motion) if block.end <= motion.v.len() => {
@@ -70,7 +104,7 @@ impl<const D: usize> Model<D> {
             }
         }
         if let Some(flow) = &self.flow {
-            let own = flow.momentum();
+            let own = flow.momentum(target_only);
             for i in 0..D {
                 sum[i] += own[i];
             }

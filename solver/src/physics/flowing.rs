@@ -102,15 +102,23 @@ impl<const D: usize> Flowing<D> {
         self.of_target(target_only).map(Flow::strain_energy).sum()
     }
 
+    /// Mass (kg).
+    pub fn mass(&self, target_only: bool) -> f64 {
+        let masses = self.of_target(target_only);
+        masses
+            .map(|part| part.len() as f64 * part.point_mass())
+            .sum()
+    }
+
     /// Kinetic energy (J).
     pub fn kinetic_energy(&self, target_only: bool) -> f64 {
         self.of_target(target_only).map(Flow::kinetic_energy).sum()
     }
 
     /// Momentum (kg m/s).
-    pub fn momentum(&self) -> Vector<D> {
+    pub fn momentum(&self, target_only: bool) -> Vector<D> {
         let mut sum = [0.0; D];
-        for part in &self.parts {
+        for part in self.of_target(target_only) {
             let own = part.total_momentum();
             for i in 0..D {
                 sum[i] += own[i];

@@ -64,6 +64,8 @@ pub struct Parts<const D: usize> {
     pub transfer: Transfer,
     /// Points that explicit steps move, in place of the regions of plain material.
     pub flow: Option<Flowing<D>>,
+    /// Velocity (m/s) of the frame that all the others are in.
+    pub frame: Vector<D>,
     /// Linear solver.
     pub solver: LinearSolver<D>,
     /// Does inertia couple nodes as the shape functions do?
@@ -94,6 +96,8 @@ pub struct Model<const D: usize> {
     pub solver: LinearSolver<D>,
     /// Points that explicit steps move.
     pub flow: Option<Flowing<D>>,
+    /// Velocity (m/s) of the frame that places and velocities are in; energies and momenta are not.
+    pub frame: Vector<D>,
     pub(super) explicit: bool,
     pub(super) movable: usize,
     pub(super) replaced_displacement: bool,
@@ -150,6 +154,7 @@ impl<const D: usize> Model<D> {
             matrices: Matrices::new(&mut regions, disc.as_ref(), &points, !parts.explicit),
             explicit: parts.explicit,
             flow: parts.flow,
+            frame: parts.frame,
             nodes: Nodes {
                 lumped: Lumped::zeros(n),
                 active: vec![false; n],

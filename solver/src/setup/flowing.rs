@@ -207,12 +207,13 @@ fn held_at_start<const D: usize>(
     Ok(weight)
 }
 
-/// Rigid bodies as terms.
+/// Rigid bodies as terms, in a frame that moves at `frame` (m/s).
 ///
 /// # Errors
 /// A body that starts inside the soil.
 pub(super) fn intruders<const D: usize>(
     problem: &Problem<D>,
+    frame: Vector<D>,
     geometry: &Geometry<D>,
     flowing: &Flowing<D>,
 ) -> Result<Vec<Box<dyn NodeTerm<D>>>, SolverError> {
@@ -237,6 +238,7 @@ pub(super) fn intruders<const D: usize>(
             geometry.per_axis,
             reach,
             problem.material.p_speed(),
+            frame,
         )));
     }
     Ok(terms)

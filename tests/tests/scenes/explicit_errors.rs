@@ -76,6 +76,8 @@ fn what_explicit_steps_do_not_have_is_refused_by_its_field() {
         problem.sides[0][0] = SideMethod::new(method);
         problem
     };
+    let mut towards = side("pml");
+    towards.sides[0][1] = SideMethod::new("roller");
     let mut wall = side("inflow");
     wall.sides[0][1] = SideMethod::new("roller");
     let mut backwards = side("inflow");
@@ -91,7 +93,7 @@ fn what_explicit_steps_do_not_have_is_refused_by_its_field() {
     let mut negative = leapfrog(column(1.0, printed.clone()), 0.4);
     negative.sides[1][0] = printed.clone().with("alpha_per_m", 0.2);
     for (problem, at, word) in [
-        (side("pml"), "boundary.left.method", "stands still"),
+        (towards, "boundary.right.method", "does not go along"),
         (wall, "boundary.left.method", "against the opposite side"),
         (backwards, "boundary.left.method", "needs more than 0"),
         (implicit, "boundary.left.method", "explicit steps"),
@@ -118,7 +120,7 @@ fn the_program_refuses_the_same_with_exit_code_2() {
         (
             "mudmat",
             &["boundary.top.method=pml"],
-            &["boundary.top.method", "stands still", "damping-layer"],
+            &["boundary.left.method", "inflow", "does not go along"],
         ),
         (
             "mudmat",

@@ -11,6 +11,7 @@ mod explicit_transfer;
 mod goodness;
 mod inclusion;
 mod lamb;
+mod moving_layers;
 mod mudmat;
 mod mutations;
 mod pipe;

@@ -80,4 +80,16 @@ pub(super) const METHODS: &[Overlay] = &[
         "boundary.left = { method = 'damping-layer', placement = 'inside', thickness_m = 10.0, form = 'printed', alpha_per_m = 0.005, end = 'inflow' }
         boundary.top.method = 'dashpot'",
     ),
+    Overlay::new(
+        "pml",
+        "the true layer before the slide's end, ten cells that move along; free top",
+        "boundary.left.method = 'pml'
+        boundary.top.method = 'free'",
+    ),
+    Overlay::new(
+        "pml-dashpot",
+        "the true layer on the left, dashpot on the top",
+        "boundary.left.method = 'pml'
+        boundary.top.method = 'dashpot'",
+    ),
 ];
