@@ -9,7 +9,7 @@ body = { width_m = 2.5, height_m = 2.5 }
 grid = { h_m = 0.01 }
 time = { scheme = "explicit", courant = 0.4 }
 points = { mode = "moving", transfer = "affine", per_cell = 16 }
-flow = { update = "usl", pic_share = 0.0, volume = "cell" }
+flow = { update = "usl", pic_share = 0.01, volume = "cell" }
 material = { E_Pa = 1.25e6, nu = 0.49, rho_kg_m3 = 650.0, s_u_Pa = 2500.0 }
 pipe = { diameter_m = 0.8, velocity_m_s = 5.0, depth = 0.5, friction = 0.0, reach = 0.5 }
 receivers = [{ name = "R1", x_m = 0.0, y_m = -1.2 }, { name = "R2", x_m = 1.2, y_m = -1.2 }]
