@@ -140,8 +140,10 @@ pub struct OwnPicture {
 pub struct Beside<'a> {
     /// The run of the scene's standard method, which absorbs nothing.
     pub standard: Option<&'a Record>,
-    /// The run of the extended domain, while it serves to the end of the run.
+    /// The run of the extended domain with the other sides alike, while it serves to the end of the run.
     pub extended: Option<&'a Record>,
+    /// The same of the standard run.
+    pub standard_extended: Option<&'a Record>,
 }
 
 /// A number by a scene's own norm.

@@ -6,8 +6,9 @@ use crate::runner::Run;
 use crate::scene::{Quantity, Reference, Role, Window};
 use anechoic_reference::claim::Evidence;
 use anechoic_reports::judge::Measurement;
+use anechoic_solver::boundary::extended;
 
-/// The method whose run certifies the others of a study.
+/// The method whose run certifies the others of a study; `extended-...` are the same beside other sides.
 pub const CERTIFIER: &str = "extended";
 
 /// Name of the reference in rows.
@@ -20,7 +21,23 @@ pub(super) fn certifier<'a>(runs: &[&'a Run]) -> Option<&'a Run> {
 
 /// Is it an extended run?
 pub(super) fn certifies(run: &Run) -> bool {
-    run.manifest.method == CERTIFIER && run.complete()
+    let method = run.manifest.method.strip_prefix(CERTIFIER);
+    method.is_some_and(|rest| rest.is_empty() || rest.starts_with('-')) && run.complete()
+}
+
+/// The extended run that tells of `run` what its boundary does: the same but for the sides that are extended, and
+/// free of their ends until `run` ends.
+pub(super) fn beside<'a>(run: &Run, runs: &[&'a Run]) -> Option<&'a Run> {
+    let end = run.record.receivers.times.last().copied().unwrap_or(0.0);
+    let sides = run.prepared.scene.boundary().sides();
+    let serves = |other: &&Run| {
+        let scene = &other.prepared.scene;
+        let others = scene.boundary().sides();
+        let mut pairs = others.as_flattened().iter().zip(sides.as_flattened());
+        let alike = pairs.all(|(other, own)| other.method == extended::METHOD.name || other == own);
+        certifies(other) && alike && scene.serves_until_s().is_some_and(|until| end <= until)
+    };
+    runs.iter().copied().find(serves)
 }
 
 /// Residuals of a run against the extended one, where a claim asks for them; of the extended run

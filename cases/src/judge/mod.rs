@@ -129,18 +129,16 @@ fn measured(run: &Run, runs: &[&Run], references: &References) -> Measured {
 }
 
 /// What is measured by the scene's own norms.
-fn own_norms(run: &Run, runs: &[&Run], numbers: &mut Vec<Measurement>) {
+fn own_norms<'a>(run: &Run, runs: &[&'a Run], numbers: &mut Vec<Measurement>) {
     let scene = run.prepared.scene.as_ref();
-    let end = run.record.receivers.times.last().copied().unwrap_or(0.0);
-    // of several extended runs one that is long enough
-    let serves = |other: &&Run| {
-        let until = other.prepared.scene.serves_until_s();
-        certified::certifies(other) && until.is_some_and(|until| end <= until)
-    };
-    let extended = runs.iter().copied().find(serves);
+    let record = |run: &'a Run| &run.record;
+    let standard = standard_of(run, runs);
     let beside = Beside {
-        standard: standard_of(run, runs).map(|run| &run.record),
-        extended: extended.map(|run| &run.record),
+        standard: standard.map(record),
+        extended: certified::beside(run, runs).map(record),
+        standard_extended: standard
+            .and_then(|run| certified::beside(run, runs))
+            .map(record),
     };
     let own = scene.measures(&run.record, &beside);
     numbers.extend(own.into_iter().map(|number| Measurement {

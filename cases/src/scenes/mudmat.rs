@@ -25,6 +25,7 @@ use crate::field::{Field, Kind, Range};
 use crate::posed::Posed;
 use crate::scene::{self, Beside, Curve, OwnNumber, OwnPicture, Scene, SceneClaim, SceneInfo};
 use crate::spec::*;
+use anechoic_solver::boundary::extended;
 use anechoic_solver::contact::Contact;
 use anechoic_solver::contact::body::{Motion, RigidBody};
 use anechoic_solver::contact::shape::Shape;
@@ -342,6 +343,19 @@ impl Scene for Mudmat {
 
     fn measures(&self, run: &Record, beside: &Beside<'_>) -> Vec<OwnNumber> {
         claims::numbers(self, run, beside)
+    }
+
+    fn needs_extended(&self) -> bool {
+        true
+    }
+
+    /// Until the mudmat hears the outer end start: it moves along, and its wave runs at c + v.
+    fn serves_until_s(&self) -> Option<f64> {
+        let left = &self.boundary.left;
+        let added = (left.method == extended::METHOD.name)
+            .then(|| extended::thickness(&self.problem(), left))?;
+        let speed = self.material.elastic.elastic().p_speed() + self.slide.velocity_m_s;
+        Some((self.body.width_m + added) / speed)
     }
 
     fn pictures(&self) -> Vec<OwnPicture> {

@@ -1,10 +1,11 @@
 //! Extended domain: plain material, so much of it that no wave comes back during the run.
 //!
 //! Not an absorber but the honest competitor, and what certifies itself: the fastest wave from any
-//! place of the body to the outer end and back needs at least `2 thickness / c_p`.
+//! place of the body to the outer end and back needs at least `2 thickness / c_p`. Material that flows in from the
+//! start does so at the outer end too; any other end is fixed.
 
 use super::params::{Ladder, MethodInfo, Param, ParamKind, Rungs, SideMethod, Upkeep};
-use super::{Context, End, Layout, Parts, walls};
+use super::{Context, End, Layout, Parts, inflow, walls};
 use crate::error::SolverError;
 use crate::problem::{Problem, Side};
 
@@ -36,13 +37,19 @@ const CELLS_AHEAD: f64 = 10.0;
 
 pub(crate) fn layout<const D: usize>(
     problem: &Problem<D>,
-    _side: Side,
+    side: Side,
     method: &SideMethod,
 ) -> Result<Layout, SolverError> {
+    let end = if problem.flow.velocity[side.axis] == 0.0 {
+        End::Fixed
+    } else {
+        inflow::check(problem, side)?;
+        End::Inflow
+    };
     Ok(Layout {
         outside: thickness(problem, method),
         inside: 0.0,
-        end: End::Fixed,
+        end,
         layer: None,
     })
 }

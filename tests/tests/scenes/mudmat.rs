@@ -1,4 +1,4 @@
-//! What is promised of mudmat (S21, section 3.2) at profile `gate`, cells of a quarter of the mat's height.
+//! What is promised of mudmat (S21, section 3.2) at profile `gate`, cells of a tenth of the mat's height.
 
 #![allow(clippy::unwrap_used, reason = "a gate fails by panicking")]
 
@@ -6,21 +6,24 @@ use anechoic::commands::{Finished, Options};
 use anechoic_tests::study::{compared, failing, print_claims, value};
 use std::path::Path;
 
-fn slide(out: &Path, presets: &[&str]) -> Finished {
+fn slide(out: &Path, presets: &[&str], methods: &[&str]) -> Finished {
     let mut options = Options::new("mudmat", out).profile("gate");
     options.request.presets = presets.iter().map(|p| (*p).to_owned()).collect();
+    for method in methods {
+        options = options.method(method);
+    }
     let finished = compared(&options);
     print_claims(&finished.rows);
     finished
 }
 
 /// Analytic: the blow runs from the mat's face at c_p, with and without weight. Accepted are 0.03 s, in
-/// which it runs five cells; the front's collapse under its weight, slower and along the slide, is not it.
+/// which it runs twelve cells; the front's collapse under its weight, slower and along the slide, is not it.
 #[test]
 fn the_blow_arrives_in_time() {
     for presets in [&[][..], &["weightless"]] {
         let out = tempfile::tempdir().unwrap();
-        let finished = slide(out.path(), presets);
+        let finished = slide(out.path(), presets, &["none"]);
         for at in ["A", "B"] {
             let late = value(&finished.rows, "none", "arrival_s", at);
             assert!(late.abs() < 0.03, "{presets:?} {at}: {late}");
@@ -28,30 +31,42 @@ fn the_blow_arrives_in_time() {
     }
 }
 
-/// S21 has less than 10 % of the wave come back at B with the dashpot, and the echo at 0.44 s all but gone
-/// with the hybrid set-up, which is taken as a fifth of the pressure's fluctuation.
+/// S21 has less than 10 % of the wave come back at B with the dashpot, and the fluctuation at 0.44 s all but gone
+/// with the hybrid set-up, which is taken as a fifth.
 ///
-/// The first holds. The second does not on this mesh: measured is 1.00, 1.08 with the layer alone and 0.93
-/// with the dashpot alone. The mat is four cells high, its blow is spread over as many steps, and what the
-/// pressure does about 0.44 s is the flow around the mat rather than an echo. The bounds say that no set-up
-/// makes it half as bad again.
+/// What the left end adds to the pressure (certified extension: a slide that goes on for 50 m, with the same top) is
+/// less than a fifth with the layer before the inflow, alone or under a dashpot; the dashpot alone leaves it. The
+/// pressure's departure from a straight line tells less: the slide that goes on has half of it as well, so that no
+/// boundary brings it down to a fifth.
+///
+/// The true layer is solved in its own frame, in which the mat moves between nodes and presses otherwise by 0.2 rho
+/// v^2 from the start; what it adds is seen at the receivers, that of the hybrid set-up and less.
 #[test]
-fn the_dashpot_takes_the_echo_and_the_pressures_own_flow_stays() {
+fn the_layer_takes_the_echo_of_the_end_and_the_dashpot_that_of_the_top() {
     let out = tempfile::tempdir().unwrap();
-    let finished = slide(out.path(), &[]);
-    assert_eq!(failing(&finished.rows), ["hybrid/fluctuation_ratio/mudmat"]);
-    let back = value(&finished.rows, "dashpot", "residual", "B");
-    let of = |method| value(&finished.rows, method, "fluctuation_ratio", "mudmat");
-    let [hybrid, layer, dashpot] = ["hybrid", "damping-layer", "dashpot"].map(of);
-    println!("residual at B with the dashpot {back:.3}");
-    println!(
-        "fluctuation against none: hybrid {hybrid:.2}, layer {layer:.2}, dashpot {dashpot:.2}"
-    );
-    assert!(back < 0.1 && [hybrid, layer, dashpot].iter().all(|ratio| *ratio < 1.5));
-    let inside = value(&finished.rows, "none", "penetration_cells", "mudmat");
+    let finished = slide(out.path(), &[], &[]);
+    assert!(failing(&finished.rows).is_empty());
+    let of = |method, metric| value(&finished.rows, method, metric, "mudmat");
+    let echo = ["none", "dashpot", "damping-layer", "hybrid"].map(|m| of(m, "echo_ratio"));
+    println!("echo of the left end over that of none: {echo:.3?}");
+    let [none, dashpot, layer, hybrid] = echo;
+    assert!(none == 1.0 && (0.7..1.4).contains(&dashpot), "{dashpot}");
+    assert!(layer < 0.2 && hybrid < 0.2, "{layer} {hybrid}");
+    let own = of("extended", "fluctuation") / of("none", "fluctuation");
+    println!("departure from a line where the slide goes on, over that of none: {own:.2}");
+    assert!(own > 0.2, "{own}");
+    let back = |method, at| value(&finished.rows, method, "residual", at);
+    for at in ["A", "B"] {
+        let [dashpot, hybrid, pml] =
+            ["dashpot", "hybrid", "pml-dashpot"].map(|method| back(method, at));
+        println!("back at {at}: dashpot {dashpot:.3}, hybrid {hybrid:.3}, pml-dashpot {pml:.3}");
+        assert!(pml < 0.1 && pml < dashpot, "{pml}");
+    }
+    assert!(back("dashpot", "B") < 0.1);
+    let inside = of("none", "penetration_cells");
     println!("deepest point {inside:.2} cells in the mat");
     // under a rounded foot, 0.76
-    assert!(inside < 0.3, "{inside}");
+    assert!(inside < 0.4, "{inside}");
 }
 
 #[test]

@@ -26,15 +26,15 @@ top = { method = "free" }
 pub(super) const PROFILES: &[Overlay] = &[
     Overlay::new(
         "gate",
-        "cells of e/4 with four points, to 0.6 s",
-        "grid.h_m = 0.25
+        "cells of e/10 with four points, to 0.6 s",
+        "grid.h_m = 0.1
         points.per_cell = 4
         time.end_s = 0.6",
     ),
     Overlay::new(
         "quick",
-        "cells of e/10 with four points, to 1 s",
-        "grid.h_m = 0.1
+        "cells of e/20 with four points, to 1 s",
+        "grid.h_m = 0.05
         points.per_cell = 4",
     ),
     Overlay::new(
@@ -90,6 +90,18 @@ pub(super) const METHODS: &[Overlay] = &[
         "pml-dashpot",
         "the true layer on the left, dashpot on the top",
         "boundary.left.method = 'pml'
+        boundary.top.method = 'dashpot'",
+    ),
+    Overlay::new(
+        "extended",
+        "the slide goes on so far, 50 m, that its end is not heard before 1.05 s; free top",
+        "boundary.left = { method = 'extended', thickness_m = 30.0 }
+        boundary.top.method = 'free'",
+    ),
+    Overlay::new(
+        "extended-dashpot",
+        "the same with the dashpot on the top",
+        "boundary.left = { method = 'extended', thickness_m = 30.0 }
         boundary.top.method = 'dashpot'",
     ),
 ];
