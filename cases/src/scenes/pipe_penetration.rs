@@ -200,6 +200,19 @@ impl PipePenetration {
         }
     }
 
+    /// Empty space (m): what the pipe pushes aside has to go somewhere, and splashes on fine cells, over sides that
+    /// hold nothing too.
+    fn room(&self) -> [[f64; 2]; 2] {
+        let right = self.boundary.right.method.as_str();
+        let over = if ["free", "dashpot"].contains(&right) {
+            0.5
+        } else {
+            0.0
+        };
+        let d = self.pipe.diameter_m;
+        [[0.0, over * d], [0.0, 1.5 * d]]
+    }
+
     /// What the solver is given.
     pub fn problem(&self) -> Problem<2> {
         let (dt, end) = (self.dt(), self.end_s());
@@ -226,8 +239,7 @@ impl PipePenetration {
                 pic_share: self.flow.pic_share,
                 mean_volumes: self.flow.volume == Volume::Cell,
                 intruders: vec![self.intruder()],
-                // what the pipe pushes aside has to go somewhere, and splashes on fine cells
-                room: [[0.0; 2], [0.0, 1.5 * self.pipe.diameter_m]],
+                room: self.room(),
                 ..FlowSetup::default()
             },
             sides: self.boundary.sides(),
