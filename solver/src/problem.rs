@@ -234,7 +234,7 @@ pub struct FlowSetup<const D: usize> {
     pub gravity: f64,
     /// Ratio of horizontal to vertical stress at the start under the weight; `None`: free of stress.
     pub k0: Option<f64>,
-    /// Velocity at the start (m/s); layers and walls of the sides move along.
+    /// Velocity at the start (m/s); inflows, dashpots and layers of the sides move along, other walls stay.
     pub velocity: [f64; D],
     /// Rigid bodies.
     pub intruders: Vec<Intruder>,

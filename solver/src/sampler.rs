@@ -1,5 +1,5 @@
-//! Fills a record while the model moves. What is recorded is not in the model's frame; tracers, fields and lines go
-//! along with it.
+//! Fills a record while the model moves. Velocities and places are recorded as seen from the grid's place at the
+//! start, whatever the model's frame; lines alone go along with it.
 
 use crate::basis::Sample;
 use crate::physics::model::Model;
@@ -258,28 +258,33 @@ fn velocity_field<const D: usize>(problem: &Problem<D>, model: &Model<D>, t: f64
         let last = index(body.upper[a] + room[a][1], a);
         last.min(grid.cells[a]) - first[a] + 1
     };
+    // whole cells that the frame has gone, so that the window stays
+    let gone: [i64; D] = std::array::from_fn(|a| (model.frame[a] * t / grid.h[a]).round() as i64);
     let most = (0..D).map(nodes_along).max().unwrap_or(1);
     let stride = most.div_ceil(MOST_ALONG);
     let (mut counts, mut origin, mut spacing) = ([1; 3], [0.0; 3], [0.0; 3]);
     for a in 0..D {
         counts[a] = (nodes_along(a) - 1) / stride + 1;
-        origin[a] = grid.origin[a] + grid.h[a] * first[a] as f64 + model.frame[a] * t;
+        origin[a] =
+            grid.origin[a] + grid.h[a] * (first[a] as f64 - gone[a] as f64) + model.frame[a] * t;
         spacing[a] = grid.h[a] * stride as f64;
     }
     let node = |k: usize| {
         let mut rest = k;
-        let index = std::array::from_fn(|a| {
+        let index: [Option<usize>; D] = std::array::from_fn(|a| {
             let i = rest % counts[a];
             rest /= counts[a];
-            first[a] + i * stride
+            let i = usize::try_from((first[a] + i * stride) as i64 - gone[a]).ok()?;
+            (i <= grid.cells[a]).then_some(i)
         });
-        grid.node(index)
+        let within = index.iter().all(Option::is_some);
+        within.then(|| grid.node(index.map(Option::unwrap_or_default)))
     };
     let total = counts.iter().product();
     let (nodes, lag) = (&model.nodes, model.velocity_lag());
-    let value = |n: usize, i: usize| match nodes.active[n] {
-        true => nodes.v[n][i] + lag * nodes.a[n][i] + model.frame[i],
-        false => 0.0,
+    let value = |n: Option<usize>, i: usize| match n.filter(|&n| nodes.active[n]) {
+        Some(n) => nodes.v[n][i] + lag * nodes.a[n][i] + model.frame[i],
+        None => 0.0,
     };
     let columns = (0..D).map(|i| Column {
         name: format!("v{}", AXES[i]),

@@ -146,6 +146,11 @@ pub(crate) fn layout<const D: usize>(
             "unstable with points.transfer = \"flip\", whose motion is filtered and the layer's damping is not; use \"affine\", or pml.with_flip = \"force\" to see it grow",
         );
     }
+    if forced && problem.flow.velocity != [0.0; D] {
+        return refuse(
+            "a layer whose points take part in the transfer does not move with the material",
+        );
+    }
     one_shift(problem, side, method)?;
     if D == 3 && asks_for_shift(method) {
         return refuse(

@@ -24,7 +24,7 @@ pub(crate) struct Touch<const D: usize> {
     /// Of the fastest wave (m/s).
     speed: f64,
     /// Velocity (m/s) of the frame that places and velocities are in.
-    frame: Vector<2>,
+    frame: Vector<D>,
     step: u32,
     impulse: Vector<D>,
     dt: f64,
@@ -34,7 +34,8 @@ pub(crate) struct Touch<const D: usize> {
 
 impl<const D: usize> Touch<D> {
     /// Of `intruder` with material of wave `speed` (m/s) on `grid`, filled with `per_axis` points along
-    /// each axis of a cell, each reaching nodes within `reach` cells; all in a frame that moves at `frame` (m/s).
+    /// each axis of a cell, each reaching nodes within `reach` cells; all in a frame that moves at
+    /// `frame` (m/s).
     pub(crate) fn new(
         intruder: &Intruder,
         grid: &Grid<D>,
@@ -50,7 +51,7 @@ impl<const D: usize> Touch<D> {
             half_extent: grid.h.map(|h| 0.5 * h / per_axis as f64),
             reach: grid.h.map(|h| reach * h),
             speed,
-            frame: [frame[0], frame[1]],
+            frame,
             reached: vec![0; grid.node_count()],
             grid: grid.clone(),
             step: 0,
@@ -64,9 +65,8 @@ impl<const D: usize> Touch<D> {
     /// Distance of the place `x` (m) and normal, at `time` (s).
     #[inline]
     fn distance(&self, x: &Vector<D>, time: f64) -> Distance {
-        let [v, w] = self.frame;
-        self.body
-            .distance(&[x[0] + v * time, x[1] + w * time], time)
+        let [x, y] = [0, 1].map(|a| x[a] + self.frame[a] * time);
+        self.body.distance(&[x, y], time)
     }
 
     /// Marks the nodes that touching points reach, and looks for the deepest point.
@@ -117,8 +117,8 @@ impl<const D: usize> NodeTerm<D> for Touch<D> {
         self.look(step.places, start);
         (self.dt, self.end) = (end - start, end);
         self.impulse = [0.0; D];
-        let own = self.body.velocity(start, self.dt);
-        let velocity = in_space([own[0] - self.frame[0], own[1] - self.frame[1]]);
+        let own: Vector<D> = in_space(self.body.velocity(start, self.dt));
+        let velocity = std::array::from_fn(|a| own[a] - self.frame[a]);
         let h = self.grid.h[..2].iter().copied().fold(0.0, f64::max);
         let courant = self.speed * self.dt / h;
         for (node, v) in v.iter_mut().enumerate() {

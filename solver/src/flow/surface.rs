@@ -27,7 +27,7 @@
 //! ```
 //!
 //! adjoint as well, so that masses, momenta and work are kept, though not linear fields: a film thinner than a
-//! tenth of a cell moves as one with what is next to it.
+//! tenth of a cell moves as one with the end, and stays where that is held.
 
 use super::NodeSums;
 use crate::grid::Grid;
@@ -40,7 +40,9 @@ const FAINT: f64 = 5e-3;
 const FIRM: f64 = 0.25;
 
 /// A node next to an end of the grid is light below this share of the end node's mass. What is not light has
-/// `omega^2 <= c^2/h^2 (1/LIGHT + 8)` at most: `omega dt < 2` up to Courant numbers of 0.47.
+/// `omega^2 <= c^2/h^2 (1/LIGHT + 8)` at a side of the plane and with B-splines: `omega dt < 2` up to Courant
+/// numbers of 0.47. Lone points reach 0.41 in a corner, 0.37 with GIMP of four points an axis, 0.34 in a corner of
+/// space.
 const LIGHT: f64 = 0.1;
 
 /// What a node is.

@@ -199,6 +199,46 @@ pub(super) fn problem<const D: usize>(problem: &Problem<D>) -> Result<(), Solver
     Ok(())
 }
 
+/// Layers whose points rest do so in a frame that moves with the material: other sides have to go along.
+pub(super) fn moving_layers<const D: usize>(
+    problem: &Problem<D>,
+    assigned: &[Assigned],
+) -> Result<(), SolverError> {
+    let velocity = problem.flow.velocity;
+    if velocity == [0.0; D] || !assigned.iter().any(|a| a.layout.rests()) {
+        return Ok(());
+    }
+    for Assigned {
+        side,
+        method,
+        layout,
+    } in assigned
+    {
+        let goes_along = match layout.end {
+            End::Free => true,
+            End::Roller => velocity[side.axis] == 0.0,
+            End::Fixed | End::Inflow => false,
+        };
+        let bare = layout.outside == 0.0 && layout.inside == 0.0;
+        if !(layout.rests() || bare && goes_along) {
+            return Err(setup_error(
+                format!("boundary.{}.method", side.name()),
+                format!(
+                    "the layer on another side moves with the material, at {velocity:?} m/s, and {:?} is not known to go along; use \"free\", \"dashpot\", another such layer, or \"roller\" on a side along which it moves",
+                    method.method
+                ),
+            ));
+        }
+    }
+    if problem.drives.is_empty() {
+        return Ok(());
+    }
+    Err(setup_error(
+        "load",
+        "loads stay where they are, and a layer moves with the material",
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -231,44 +271,4 @@ mod tests {
         ];
         assert!(corners(&mixed).is_err());
     }
-}
-
-/// Layers whose points rest do so in a frame that moves with the material: other sides have to go along.
-pub(super) fn moving_layers<const D: usize>(
-    problem: &Problem<D>,
-    assigned: &[Assigned],
-) -> Result<(), SolverError> {
-    let velocity = problem.flow.velocity;
-    if velocity == [0.0; D] || !assigned.iter().any(|a| a.layout.rests()) {
-        return Ok(());
-    }
-    for Assigned {
-        side,
-        method,
-        layout,
-    } in assigned
-    {
-        let goes_along = match layout.end {
-            End::Free => true,
-            End::Roller => velocity[side.axis] == 0.0,
-            End::Fixed | End::Inflow => false,
-        };
-        let bare = layout.outside == 0.0 && layout.inside == 0.0;
-        if !(layout.rests() || bare && goes_along) {
-            return Err(setup_error(
-                format!("boundary.{}.method", side.name()),
-                format!(
-                    "the layer on another side moves with the material, at {velocity:?} m/s, and {:?} does not go along; use \"free\", \"dashpot\", another such layer, or \"roller\" on a side along which it moves",
-                    method.method
-                ),
-            ));
-        }
-    }
-    if problem.drives.is_empty() {
-        return Ok(());
-    }
-    Err(setup_error(
-        "load",
-        "loads stay where they are, and a layer moves with the material",
-    ))
 }

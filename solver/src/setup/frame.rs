@@ -6,8 +6,7 @@
 //! ```
 //!
 //! There the body starts at rest, the layer damps what departs from V0 and its displacement is u - V0 t, while
-//! rigid bodies come at it. What is recorded is turned back. A layer fixed in space through which material
-//! flows would reflect a quarter of it to all of it.
+//! rigid bodies come at it. What is recorded is turned back.
 
 use crate::geometry::Geometry;
 use crate::problem::Problem;

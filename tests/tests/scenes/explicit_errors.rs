@@ -78,6 +78,9 @@ fn what_explicit_steps_do_not_have_is_refused_by_its_field() {
     };
     let mut towards = side("pml");
     towards.sides[0][1] = SideMethod::new("roller");
+    let mut forced = side("pml");
+    forced.sides[0][0] = SideMethod::new("pml").with_choice("with_flip", "force");
+    forced.transfer = Transfer::Flip;
     let mut wall = side("inflow");
     wall.sides[0][1] = SideMethod::new("roller");
     let mut backwards = side("inflow");
@@ -93,7 +96,8 @@ fn what_explicit_steps_do_not_have_is_refused_by_its_field() {
     let mut negative = leapfrog(column(1.0, printed.clone()), 0.4);
     negative.sides[1][0] = printed.clone().with("alpha_per_m", 0.2);
     for (problem, at, word) in [
-        (towards, "boundary.right.method", "does not go along"),
+        (towards, "boundary.right.method", "not known to go along"),
+        (forced, "boundary.left.method", "does not move"),
         (wall, "boundary.left.method", "against the opposite side"),
         (backwards, "boundary.left.method", "needs more than 0"),
         (implicit, "boundary.left.method", "explicit steps"),
@@ -120,7 +124,7 @@ fn the_program_refuses_the_same_with_exit_code_2() {
         (
             "mudmat",
             &["boundary.top.method=pml"],
-            &["boundary.left.method", "inflow", "does not go along"],
+            &["boundary.left.method", "inflow", "not known to go along"],
         ),
         (
             "mudmat",
