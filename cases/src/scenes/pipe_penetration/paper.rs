@@ -12,7 +12,7 @@ pub(super) const LEDGER: &[(Finding, &str, &str)] = &[
     (
         Finding::Differs,
         "section 3.3, Courant number",
-        "The stated 0.4 goes through to the end on coarser cells than the paper's, fast on cells of D/64 and slowly on D/32. It takes an F-bar whose divergence is the mean over the points of a cell: with that of the cell's centre points of the heaved surface are inverted. On cells of D/80 with sixteen points what splashes is inverted in the air at w/D = 0.41; with a share of pic of 0.01 it reaches the side, and is inverted there, at 0.46.",
+        "The stated 0.4 goes through to the end on coarser cells than the paper's, fast on cells of D/64 and slowly on D/32. It takes an F-bar whose divergence is the mean over the points of a cell: with that of the cell's centre points of the heaved surface are inverted. On the paper's cells of D/80 with sixteen points it takes a share of pic of 0.01 as well, or what splashes is inverted in the air at w/D = 0.41.",
     ),
     (
         Finding::Differs,
