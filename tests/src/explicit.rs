@@ -1,7 +1,12 @@
 //! Problems in explicit steps.
 
+use anechoic_solver::contact::Contact;
+use anechoic_solver::contact::body::{Motion, RigidBody};
+use anechoic_solver::contact::shape::Shape;
 use anechoic_solver::linear::Moment;
-use anechoic_solver::problem::{BasisKind, PointMode, Problem, Scheme, StressUpdate, Transfer};
+use anechoic_solver::problem::{
+    BasisKind, Intruder, PointMode, Problem, Scheme, StressUpdate, Transfer,
+};
 use anechoic_solver::setup;
 use anechoic_solver::tensor::Vector;
 use anechoic_solver::time::System;
@@ -38,6 +43,28 @@ pub fn flowing(
     problem.transfer = transfer;
     problem.flow.update = update;
     problem
+}
+
+/// A `plate` over a column, its face at `height` (m), that moves along y at `velocity` (m/s) and touches nodes
+/// within `reach` cells.
+pub fn plate(height: f64, velocity: f64, reach: f64) -> Intruder {
+    Intruder {
+        name: "plate".to_owned(),
+        body: RigidBody {
+            shape: Shape::HalfPlane {
+                place: [0.0, height],
+                normal: [0.0, -1.0],
+            },
+            motion: Motion {
+                velocity: [0.0, velocity],
+                rise: 0.0,
+            },
+        },
+        contact: Contact {
+            friction: 0.0,
+            reach,
+        },
+    }
 }
 
 /// The longest stable step (s) of leapfrog on an elastic problem with nodes that keep the motion: 2/w,

@@ -205,11 +205,14 @@ impl<const D: usize> Surface<D> {
         let mut stride = 1;
         for a in 0..D {
             for up in [false, true] {
-                let room = if up {
-                    index[a] + 2 <= self.grid.cells[a]
-                } else {
-                    index[a] >= 2
-                };
+                // on an end it may be held along the normal, which it would not be once it followed
+                let on_end = index[a] == 0 || index[a] == self.grid.cells[a];
+                let room = !on_end
+                    && if up {
+                        index[a] + 2 <= self.grid.cells[a]
+                    } else {
+                        index[a] >= 2
+                    };
                 if !room {
                     continue;
                 }

@@ -11,7 +11,7 @@ use anechoic_solver::contact::body::{Motion, RigidBody};
 use anechoic_solver::contact::shape::Shape;
 use anechoic_solver::error::SolverError;
 use anechoic_solver::problem::{BasisKind, Intruder, PointMode, Problem, StressUpdate, Transfer};
-use anechoic_tests::explicit::{FLOWS, flowing};
+use anechoic_tests::explicit::{FLOWS, flowing, plate};
 use anechoic_tests::{Unwatched, block, column, solved};
 
 /// A disc that is pushed up to the left side of the free block.
@@ -76,23 +76,8 @@ fn struck(basis: BasisKind, update: StressUpdate, reach: f64) -> Problem<2> {
     let column = column(1.0, SideMethod::new("roller"));
     let mut problem = flowing(column, 0.4, (basis, update), Transfer::Affine);
     problem.drives.clear();
-    problem.flow.intruders = vec![Intruder {
-        name: "plate".to_owned(),
-        body: RigidBody {
-            shape: Shape::HalfPlane {
-                place: [0.0, 50.0 + GAP],
-                normal: [0.0, -1.0],
-            },
-            motion: Motion {
-                velocity: [0.0, -SPEED * problem.material.p_speed()],
-                rise: 0.0,
-            },
-        },
-        contact: Contact {
-            friction: 0.0,
-            reach,
-        },
-    }];
+    let speed = SPEED * problem.material.p_speed();
+    problem.flow.intruders = vec![plate(50.0 + GAP, -speed, reach)];
     problem.flow.room[1] = [0.0, 4.0];
     problem.end_time = 1.6;
     problem

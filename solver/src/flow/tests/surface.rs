@@ -127,3 +127,20 @@ fn folding_keeps_the_mass_and_empties_no_node() {
         assert_near(&[total(&sums)], &[total(&whole)], "mass");
     }
 }
+
+/// A body one cell from the grid's end, whose faint nodes are the end's own: what holds them along the normal holds
+/// them still once nodes have followed.
+#[test]
+fn nodes_on_an_end_do_not_follow_along_its_normal() {
+    let mut start = rectangle(BasisKind::Bspline, 0.13);
+    start.grid.cells[1] = 11;
+    let (whole, _, surface, _) = folded(&start);
+    let v = field::<2>(start.grid.node_count(), 0.7);
+    let mut following = v.clone();
+    surface.follow(&mut following);
+    for i in 5..9 {
+        let node = start.grid.node([i, 11]);
+        assert!(whole.mass[node] > 0.0 && whole.mass[node] < 5e-3 * 2.0 * 0.125);
+        assert_eq!(following[node], v[node]);
+    }
+}

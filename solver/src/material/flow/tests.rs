@@ -55,7 +55,7 @@ fn implicit(a: &Matrix<2>, stress: &Matrix<2>) -> Matrix<2> {
     let (mut next, mut first) = ([zero::<2>()], [zero::<2>()]);
     LinearElastic::new(&CLAY)
         .finite_stress(&[*a], &[*stress], &mut next, &mut first)
-        .unwrap();
+        .expect("the increment has a positive determinant");
     next[0]
 }
 
