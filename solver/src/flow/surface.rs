@@ -27,7 +27,9 @@
 //! ```
 //!
 //! adjoint as well, so that masses, momenta and work are kept, though not linear fields: a film thinner than a
-//! tenth of a cell moves as one with the end, and stays where that is held.
+//! tenth of a cell moves as one with the end, and stays where that is held. A node next to an end is faint by such
+//! points and not by its distance from a body while it has less than twice that share. It does not lean then: it
+//! would hand all of their force, doubled, to a node that may be hardly heavier than itself.
 
 use super::NodeSums;
 use crate::grid::Grid;
@@ -50,6 +52,8 @@ const LIGHT: f64 = 0.1;
 enum Kind {
     /// Without mass.
     Void,
+    /// Faint, and not to lean on others: what is faint by points close to an end of the grid.
+    Apart,
     /// Faint, without nodes to lean on yet.
     Faint,
     /// Faint, and leans on nodes before it in so many turns.
@@ -165,6 +169,13 @@ impl<const D: usize> Surface<D> {
                 Kind::Void
             };
         }
+        for &[node, end] in &self.ends {
+            let [node, end] = [node as usize, end as usize];
+            if self.kinds[node] == Kind::Faint && mass[node] < 2.0 * LIGHT * mass[end] {
+                self.kinds[node] = Kind::Apart;
+            }
+        }
+        self.rest.retain(|&node| self.kinds[node as usize] == Kind::Faint);
         for turn in 0..D as u8 {
             let mut rest = std::mem::take(&mut self.rest);
             rest.retain(|&node| match self.lean(node as usize, turn, mass) {
@@ -199,7 +210,7 @@ impl<const D: usize> Surface<D> {
         let holds = |n: usize, least: f64| match self.kinds[n] {
             Kind::Solid => mass[n] >= least,
             Kind::Leaning(since) => since < turn,
-            Kind::Void | Kind::Faint => false,
+            Kind::Void | Kind::Apart | Kind::Faint => false,
         };
         let mut best: Option<(f64, Lean)> = None;
         let mut stride = 1;
