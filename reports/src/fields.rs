@@ -33,17 +33,25 @@ pub enum FieldError {
     Write(String),
 }
 
-/// The displacement on the nodes of a snapshot's lattice: quadrilaterals in the plane, hexahedra in space,
-/// with the vector `displacement` (m) at their corners, in single precision. Values that are not finite
-/// stay so.
+/// The field on the nodes of a snapshot's lattice: quadrilaterals in the plane, hexahedra in space, with the
+/// vector `displacement` (m) at their corners, or `velocity` (m/s) where that is what it holds, in single
+/// precision. Values that are not finite stay so.
 pub fn vtu(snapshot: &Snapshot) -> Result<Vec<u8>, FieldError> {
     let [nx, ny, nz] = snapshot.counts;
     if nx < 2 || ny < 2 || nz < 1 {
         return Err(FieldError::Shape(snapshot.counts));
     }
     let solid = nz > 1;
-    let (x, y) = (component(snapshot, "ux")?, component(snapshot, "uy")?);
-    let z = solid.then(|| component(snapshot, "uz")).transpose()?;
+    let flows = snapshot.columns.iter().any(|column| column.name == "vx");
+    let (quantity, names) = match flows {
+        true => ("velocity", ["vx", "vy", "vz"]),
+        false => ("displacement", ["ux", "uy", "uz"]),
+    };
+    let (x, y) = (
+        component(snapshot, names[0])?,
+        component(snapshot, names[1])?,
+    );
+    let z = solid.then(|| component(snapshot, names[2])).transpose()?;
     let place =
         |axis: usize, i: usize| (snapshot.origin[axis] + i as f64 * snapshot.spacing[axis]) as f32;
     let nodes = || (0..nx * ny * nz).map(|n| [n % nx, n / nx % ny, n / nx / ny]);
@@ -83,7 +91,7 @@ pub fn vtu(snapshot: &Snapshot) -> Result<Vec<u8>, FieldError> {
             types: vec![kind; count],
         },
         data: Attributes {
-            point: vec![Attribute::vectors("displacement").with_data(vectors)],
+            point: vec![Attribute::vectors(quantity).with_data(vectors)],
             cell: Vec::new(),
         },
     };

@@ -97,6 +97,25 @@ fn a_field_in_space_is_made_of_hexahedra() {
 }
 
 #[test]
+fn a_field_of_velocities_is_named_so() {
+    let mut flowing = snapshot();
+    for (column, name) in flowing.columns.iter_mut().zip(["vx", "vy"]) {
+        column.name = name.to_owned();
+    }
+    let piece = read_back(&vtu(&flowing).expect("written"));
+    let [Attribute::DataArray(vector)] = piece.data.point.as_slice() else {
+        panic!("not one array at the nodes");
+    };
+    assert_eq!(vector.name, "velocity");
+    flowing.columns.pop();
+    let missing = FieldError::Component {
+        name: "vy",
+        samples: 6,
+    };
+    assert_eq!(vtu(&flowing), Err(missing));
+}
+
+#[test]
 fn the_list_names_times_and_files() {
     let list = pvd([(0.5, "fields/000.vtu"), (1.25, "fields/001.vtu")]);
     let lines: Vec<&str> = list.lines().map(str::trim).collect();

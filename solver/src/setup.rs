@@ -29,8 +29,8 @@ pub fn model<const D: usize>(problem: &Problem<D>) -> Result<Model<D>, SolverErr
 where
     Space: Dimension<D>,
 {
-    let geometry = Geometry::new(problem)?;
     flowing::check(problem)?;
+    let geometry = Geometry::new(problem)?;
     let framed = frame::of_layers(problem, &geometry);
     let (problem, frame) = match &framed {
         Some(framed) => (&framed.problem, framed.velocity),
@@ -90,7 +90,13 @@ where
     points.inertia = inertia;
     terms.extend(drives(problem, &geometry));
     if let Some(flow) = &flow {
-        terms.extend(flowing::intruders(problem, frame, &geometry, flow)?);
+        terms.extend(flowing::intruders(
+            problem,
+            frame,
+            &geometry,
+            flow,
+            &points.place,
+        )?);
     }
     let carries = flow.is_none() && problem.transfer != Transfer::Keep;
     if carries && problem.scheme != Scheme::QuasiStatic {

@@ -175,7 +175,8 @@ impl<const D: usize> Surface<D> {
                 self.kinds[node] = Kind::Apart;
             }
         }
-        self.rest.retain(|&node| self.kinds[node as usize] == Kind::Faint);
+        self.rest
+            .retain(|&node| self.kinds[node as usize] == Kind::Faint);
         for turn in 0..D as u8 {
             let mut rest = std::mem::take(&mut self.rest);
             rest.retain(|&node| match self.lean(node as usize, turn, mass) {

@@ -2,6 +2,7 @@
 //! rigid bodies.
 
 use crate::basis::on_grid;
+use crate::contact::body::RigidBody;
 use crate::contact::term::Touch;
 use crate::error::SolverError;
 use crate::flow::surface::Surface;
@@ -207,15 +208,16 @@ fn held_at_start<const D: usize>(
     Ok(weight)
 }
 
-/// Rigid bodies as terms, in a frame that moves at `frame` (m/s).
+/// Rigid bodies as terms, in a frame that moves at `frame` (m/s), beside layers of such points.
 ///
 /// # Errors
-/// A body that starts inside the soil.
+/// A body that starts inside the soil, or comes to a layer.
 pub(super) fn intruders<const D: usize>(
     problem: &Problem<D>,
     frame: Vector<D>,
     geometry: &Geometry<D>,
     flowing: &Flowing<D>,
+    layers: &[Vector<D>],
 ) -> Result<Vec<Box<dyn NodeTerm<D>>>, SolverError> {
     let reach = match problem.basis {
         BasisKind::Linear => 1.0,
@@ -232,6 +234,7 @@ pub(super) fn intruders<const D: usize>(
                 reason: format!("the body starts inside the soil, which has a point at {x:?} m"),
             });
         }
+        beside_layers(problem, &intruder.name, &intruder.body, frame, layers)?;
         terms.push(Box::new(Touch::new(
             intruder,
             &geometry.grid,
@@ -242,6 +245,35 @@ pub(super) fn intruders<const D: usize>(
         )));
     }
     Ok(terms)
+}
+
+/// Refuses a body that comes to the resting points `layers` before the end, in a frame that moves at `frame` (m/s):
+/// what it does to a layer is not modelled.
+fn beside_layers<const D: usize>(
+    problem: &Problem<D>,
+    name: &str,
+    body: &RigidBody,
+    frame: Vector<D>,
+    layers: &[Vector<D>],
+) -> Result<(), SolverError> {
+    // a body moves by less than itself between two looks on any way that a grid holds
+    const LOOKS: u32 = 100;
+    for look in 1..=LOOKS {
+        let time = problem.end_time * f64::from(look) / f64::from(LOOKS);
+        let inside = |x: &&Vector<D>| {
+            let place = [0, 1].map(|a| x[a] + frame[a] * time);
+            body.distance(&place, time).gap < 0.0
+        };
+        if let Some(x) = layers.iter().find(inside) {
+            return Err(SolverError::Setup {
+                field: name.to_owned(),
+                reason: format!(
+                    "the body comes to a layer, which has a point at {x:?} m, within {time:.3} s, and layers do not feel bodies; end before (time.end_s), or make the soil wider"
+                ),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// The layers' points alone, and their ranges among themselves.

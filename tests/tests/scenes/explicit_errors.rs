@@ -4,13 +4,15 @@
 #![allow(clippy::unwrap_used, reason = "a gate fails by panicking")]
 
 use anechoic_solver::boundary::SideMethod;
+use anechoic_solver::contact::body::{Motion, RigidBody};
+use anechoic_solver::contact::shape::Shape;
 use anechoic_solver::error::SolverError;
 use anechoic_solver::probe::Receiver;
 use anechoic_solver::problem::{
-    BasisKind, MassKind, PointMode, Problem, Scheme, StressUpdate, Transfer,
+    BasisKind, Intruder, MassKind, PointMode, Problem, Scheme, StressUpdate, Transfer,
 };
 use anechoic_solver::record::Status;
-use anechoic_tests::explicit::{FLOWS, flowing, leapfrog};
+use anechoic_tests::explicit::{FLOWS, flowing, leapfrog, plate};
 use anechoic_tests::program::{anechoic, folder, narrow, read};
 use anechoic_tests::{Unwatched, block, column};
 
@@ -81,6 +83,33 @@ fn what_explicit_steps_do_not_have_is_refused_by_its_field() {
     let mut forced = side("pml");
     forced.sides[0][0] = SideMethod::new("pml").with_choice("with_flip", "force");
     forced.transfer = Transfer::Flip;
+    let mut held = side("pml");
+    held.sides[1][0] = SideMethod::new("fixed");
+    let mut damped = side("pml");
+    damped.sides[0][1] = SideMethod::new("damping-layer").with("thickness_m", 1.0);
+    let mut loaded = side("pml");
+    loaded.drives = column(1.0, SideMethod::new("roller")).drives;
+    let mut still = side("pml");
+    still.scheme = Scheme::Newmark;
+    // the first comes by itself, the frame's own motion brings the second
+    let mut met = side("pml");
+    met.flow.intruders = vec![plate(3.1, -0.1, 0.5)];
+    let mut waited = side("pml");
+    waited.flow.intruders = vec![Intruder {
+        name: "wall".to_owned(),
+        body: RigidBody {
+            shape: Shape::HalfPlane {
+                place: [4.2, 0.0],
+                normal: [-1.0, 0.0],
+            },
+            motion: Motion {
+                velocity: [0.0; 2],
+                rise: 0.0,
+            },
+        },
+        contact: plate(3.1, -0.1, 0.5).contact,
+    }];
+    waited.end_time = 9.0;
     let mut wall = side("inflow");
     wall.sides[0][1] = SideMethod::new("roller");
     let mut backwards = side("inflow");
@@ -98,6 +127,12 @@ fn what_explicit_steps_do_not_have_is_refused_by_its_field() {
     for (problem, at, word) in [
         (towards, "boundary.right.method", "not known to go along"),
         (forced, "boundary.left.method", "does not move"),
+        (held, "boundary.bottom.method", "not known to go along"),
+        (damped, "boundary.right.method", "not known to go along"),
+        (loaded, "load", "loads stay"),
+        (still, "material.velocity_m_s", "explicit"),
+        (met, "plate", "comes to a layer"),
+        (waited, "wall", "comes to a layer"),
         (wall, "boundary.left.method", "against the opposite side"),
         (backwards, "boundary.left.method", "needs more than 0"),
         (implicit, "boundary.left.method", "explicit steps"),
