@@ -116,6 +116,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
         let (mut stencils, mut run) = (Stencils::new(), Run::new());
         let mut packed = [Packed::ZERO; BLOCK];
         for block in blocks(self.strips.points[strip]..self.strips.points[strip + 1]) {
+            columns.fetch(block.end..block.end + BLOCK);
             fixed.fill(&mut stencils, &columns.place[block.clone()])?;
             let cells = self.cells.as_ref().map(|cells| &cells.means[..]);
             fixed.pack(columns, block.clone(), out, cells, &mut packed);
@@ -189,6 +190,7 @@ impl<B: Basis + Sync, L: Law<D>, const D: usize> Body<B, L, D> {
             while !part.place.is_empty() {
                 let n = part.place.len().min(BLOCK);
                 let (mut block, rest) = part.split_at(n);
+                rest.fetch(0..BLOCK);
                 fixed.fill(&mut stencils, block.place)?;
                 fixed.gather::<KICK, MOVE>(&stencils, nodes, &mut block)?;
                 if MOVE {

@@ -1,6 +1,8 @@
 //! Columns of points, their parts, and their order.
 
+use super::ahead::fetch;
 use crate::tensor::{Matrix, Vector};
+use std::ops::Range;
 
 /// What points remember, one entry a point in each column; no gradients without the affine transfer.
 #[derive(Debug)]
@@ -25,6 +27,15 @@ pub(super) struct Part<'a, S, const D: usize> {
 }
 
 impl<'a, S, const D: usize> Part<'a, S, D> {
+    /// Asks the memory for the points in `range`, as far as there are such.
+    #[inline]
+    pub fn fetch(&self, range: Range<usize>) {
+        fetch(self.place, range.clone());
+        fetch(self.velocity, range.clone());
+        fetch(self.gradient, range.clone());
+        fetch(self.state, range);
+    }
+
     /// The first `n` points and the others.
     pub fn split_at(self, n: usize) -> (Self, Self) {
         let (place, places) = self.place.split_at_mut(n);
@@ -63,6 +74,15 @@ pub(super) struct Sorting<S, const D: usize> {
 }
 
 impl<S: Copy, const D: usize> Columns<S, D> {
+    /// Asks the memory for the points in `range`, as far as there are such.
+    #[inline]
+    pub fn fetch(&self, range: Range<usize>) {
+        fetch(&self.place, range.clone());
+        fetch(&self.velocity, range.clone());
+        fetch(&self.gradient, range.clone());
+        fetch(&self.state, range);
+    }
+
     /// All points as one part.
     pub fn all(&mut self) -> Part<'_, S, D> {
         Part {

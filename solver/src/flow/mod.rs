@@ -15,13 +15,15 @@
 //!
 //! Points stand in structures of arrays, sorted by the first node that they see. Runs of points with
 //! the same nodes share their loads and sums; shape functions are made on the fly, a block of points
-//! at once. Passes are compiled for the widest vectors of the machine and chosen as the program runs.
+//! at once, and the next block is asked for while one is worked on. Passes are compiled for the widest
+//! vectors of the machine and chosen as the program runs.
 //! Strips of rows in two colours write without overlap, always in the same order, so that the number
 //! of threads changes no bit.
 //!
 //! Kernels for the grid (dimension, width of the basis, transfer) and for the law meet in blocks of
 //! points: their instances add up.
 
+mod ahead;
 mod body;
 mod columns;
 mod fbar;
