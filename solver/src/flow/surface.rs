@@ -15,8 +15,10 @@
 //!
 //! This holds surfaces that are pulled or driven. It is no matter of stability: what a point does to nodes of
 //! its own functions is bounded by `omega^2 <= c^2 max sum |grad N|^2/N`, however little they weigh, but
-//! folding makes points act on nodes that they do not see, and those have to be firm. A faint node without
-//! one stays as it is, as around single points and in splashes.
+//! folding makes points act on nodes that they do not see, and those have to be firm. In a chain, s_2 may belong to
+//! a faint node that has less to spare: a faint node does not lean where another one would be left with less than
+//! nothing, or one that is not faint with less than half of its mass. A faint node without nodes to lean on stays
+//! as it is, as around single points and in splashes.
 //!
 //! The ends of the grid are another matter. Wide functions are folded there and linear: points that are all
 //! within a share x of a cell from an end give the node next to it a share x of their mass and all of their
@@ -40,6 +42,9 @@ const FAINT: f64 = 5e-3;
 
 /// A node is firm from this share on: what is folded onto it weighs next to nothing beside that.
 const FIRM: f64 = 0.25;
+
+/// What leaning nodes leave to a node that is none, at least, of its mass.
+const LEFT: f64 = 0.5;
 
 /// A node next to an end of the grid is light below this share of the end node's mass. What is not light has
 /// `omega^2 <= c^2/h^2 (1/LIGHT + 8)` at a side of the plane and with B-splines: `omega dt < 2` up to Courant
@@ -76,6 +81,10 @@ pub struct Surface<const D: usize> {
     faint: f64,
     firm: f64,
     kinds: Vec<Kind>,
+    /// What each node would have, with all leans so far (kg).
+    left: Vec<f64>,
+    /// From each leaning node to the next before it.
+    steps: Vec<i32>,
     /// Faint nodes, those nearest to the bodies first.
     leans: Vec<Lean>,
     /// Faint nodes without a lean.
@@ -96,6 +105,8 @@ impl<const D: usize> Surface<D> {
             faint: FAINT * cell_mass,
             firm: FIRM * cell_mass,
             kinds: vec![Kind::Void; nodes],
+            left: vec![0.0; nodes],
+            steps: vec![0; nodes],
             leans: Vec::with_capacity(nodes),
             rest: Vec::with_capacity(nodes),
             stuck: Vec::with_capacity(ends.len()),
@@ -177,18 +188,46 @@ impl<const D: usize> Surface<D> {
         }
         self.rest
             .retain(|&node| self.kinds[node as usize] == Kind::Faint);
+        self.left.copy_from_slice(mass);
         for turn in 0..D as u8 {
             let mut rest = std::mem::take(&mut self.rest);
             rest.retain(|&node| match self.lean(node as usize, turn, mass) {
-                Some(lean) => {
-                    self.kinds[node as usize] = Kind::Leaning(turn);
-                    self.leans.push(lean);
-                    false
-                }
+                Some(lean) => !self.take(lean, turn, mass),
                 None => true,
             });
             self.rest = rest;
         }
+    }
+
+    /// Lets a node lean, unless some other would be left with too little.
+    fn take(&mut self, lean: Lean, turn: u8, mass: &[f64]) -> bool {
+        let [node, one, two] = lean.line();
+        let own = mass[node];
+        let sound = self.give(one, 2.0 * own, mass) & self.give(two, -own, mass);
+        if !sound {
+            self.give(one, -2.0 * own, mass);
+            self.give(two, own, mass);
+            return false;
+        }
+        self.kinds[node] = Kind::Leaning(turn);
+        self.steps[node] = lean.step;
+        self.leans.push(lean);
+        true
+    }
+
+    /// Gives a mass to a node and, if it leans, to those before it. Do all have enough then?
+    fn give(&mut self, node: usize, by: f64, mass: &[f64]) -> bool {
+        self.left[node] += by;
+        if !matches!(self.kinds[node], Kind::Leaning(_)) {
+            return self.left[node] >= LEFT * mass[node];
+        }
+        let step = self.steps[node];
+        let [_, one, two] = Lean {
+            node: node as u32,
+            step,
+        }
+        .line();
+        (self.left[node] >= 0.0) & self.give(one, 2.0 * by, mass) & self.give(two, -by, mass)
     }
 
     /// Finds the light nodes by what they have once faint ones are folded and gives it to the ends: axis by axis,
