@@ -107,6 +107,17 @@ fn a_field_of_velocities_is_named_so() {
         panic!("not one array at the nodes");
     };
     assert_eq!(vector.name, "velocity");
+    let mut pressed = flowing.clone();
+    let mut pressure = flowing.columns[0].clone();
+    pressure.name = "p".to_owned();
+    pressed.columns.push(pressure);
+    let piece = read_back(&vtu(&pressed).expect("written"));
+    let [_, Attribute::DataArray(scalar)] = piece.data.point.as_slice() else {
+        panic!("not two arrays at the nodes");
+    };
+    assert_eq!((scalar.name.as_str(), scalar.num_comp()), ("pressure", 1));
+    let values: Vec<f32> = scalar.data.clone().cast_into().expect("numbers");
+    assert_eq!(values, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
     flowing.columns.pop();
     let missing = FieldError::Component {
         name: "vy",

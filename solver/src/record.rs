@@ -132,7 +132,8 @@ pub struct Record {
     pub bodies: SeriesTable,
     /// Fields along lines.
     pub lines: Vec<SpaceTime>,
-    /// Fields on lattices.
+    /// Fields on lattices: displacement `ux`, `uy`, `uz` (m); of material that flows velocity `vx`, `vy`, `vz`
+    /// (m/s), and `p` (Pa), the pressure of the cell that goes up from the sample along every axis.
     pub snapshots: Vec<Snapshot>,
     /// What it cost.
     pub cost: Cost,

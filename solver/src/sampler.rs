@@ -2,6 +2,7 @@
 //! start, whatever the model's frame; lines alone go along with it.
 
 use crate::basis::Sample;
+use crate::physics::flowing::Flowing;
 use crate::physics::model::Model;
 use crate::problem::Problem;
 use crate::record::{Column, Record, SeriesTable, Snapshot, SpaceTime};
@@ -168,8 +169,8 @@ impl<const D: usize> Sampler<D> {
             .is_some_and(|s| *s <= t + 0.5 * problem.dt)
         {
             self.snapshots.remove(0);
-            record.snapshots.push(match model.flow {
-                Some(_) => velocity_field(problem, model, t),
+            record.snapshots.push(match &model.flow {
+                Some(flow) => flowing_field(problem, model, flow, t),
                 None => self.snapshot(model, t),
             });
         }
@@ -248,8 +249,13 @@ impl<const D: usize> Sampler<D> {
 const MOST_ALONG: usize = 400;
 
 /// The velocity of flowing material on the nodes of the body and the room around it, or every so many of
-/// them; zero where there is none.
-fn velocity_field<const D: usize>(problem: &Problem<D>, model: &Model<D>, t: f64) -> Snapshot {
+/// them, and the pressure of the cell beyond each; zero where there is none.
+fn flowing_field<const D: usize>(
+    problem: &Problem<D>,
+    model: &Model<D>,
+    flow: &Flowing<D>,
+    t: f64,
+) -> Snapshot {
     let grid = &model.grid;
     let index = |x: f64, a: usize| ((x - grid.origin[a]) / grid.h[a]).round().max(0.0) as usize;
     let (body, room) = (&problem.target, &problem.flow.room);
@@ -286,6 +292,14 @@ fn velocity_field<const D: usize>(problem: &Problem<D>, model: &Model<D>, t: f64
         Some(n) => nodes.v[n][i] + lag * nodes.a[n][i] + model.frame[i],
         None => 0.0,
     };
+    let pressures = flow.pressures(grid);
+    let pressure = Column {
+        name: "p".to_owned(),
+        unit: "Pa".to_owned(),
+        values: (0..total)
+            .map(|k| node(k).map_or(0.0, |n| pressures[n]))
+            .collect(),
+    };
     let columns = (0..D).map(|i| Column {
         name: format!("v{}", AXES[i]),
         unit: "m/s".to_owned(),
@@ -296,7 +310,7 @@ fn velocity_field<const D: usize>(problem: &Problem<D>, model: &Model<D>, t: f64
         counts,
         origin,
         spacing,
-        columns: columns.collect(),
+        columns: columns.chain([pressure]).collect(),
     }
 }
 

@@ -69,7 +69,7 @@ pub(super) fn snapshots(
     ranking: &Ranking,
     references: &References,
 ) -> Result<Option<Picture>, PictureError> {
-    if let Some(picture) = flowing(runs)? {
+    if let Some(picture) = flowing(runs, &VELOCITY)? {
         return Ok(Some(picture));
     }
     let named = |name: &str| {
@@ -135,9 +135,46 @@ pub(super) fn snapshots(
 /// Methods beside which the standard run's velocities are shown, those that there are.
 const BESIDE: [&str; 3] = ["dashpot", "pml", "hybrid"];
 
-/// Velocities of flowing material at the snapshots' times: standard run and others; `None` where nothing
-/// flows.
-fn flowing(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
+/// A field of flowing material and how it is shown.
+struct Shown {
+    /// Columns of a snapshot.
+    columns: &'static [&'static str],
+    /// Is it one of cells?
+    cells: bool,
+    quantity: &'static str,
+    unit: &'static str,
+    name: &'static str,
+    title: &'static str,
+    caption: &'static str,
+}
+
+const VELOCITY: Shown = Shown {
+    columns: &["vx", "vy"],
+    cells: false,
+    quantity: "|v|",
+    unit: "m/s",
+    name: "snapshots",
+    title: "Velocity of the soil",
+    caption: "One scale for all; where nothing moves or there is no soil the field is dark.",
+};
+
+const PRESSURE: Shown = Shown {
+    columns: &["p"],
+    cells: true,
+    quantity: "|p|",
+    unit: "Pa",
+    name: "pressures",
+    title: "Pressure in the soil",
+    caption: "Means over cells, in the plane. One scale for all. Cells that are darker and lighter in turn are not physics: soil that hardly changes its volume has more constraints than nodes to meet them.",
+};
+
+/// Pressures of flowing material; `None` where nothing flows.
+pub(super) fn pressures(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
+    flowing(runs, &PRESSURE)
+}
+
+/// A field of flowing material at the snapshots' times: standard run and others; `None` where nothing flows.
+fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError> {
     let flows = |run: &&&Run| {
         let mut all = run.record.snapshots.iter().flat_map(|s| &s.columns);
         all.any(|column| column.name == "vx")
@@ -154,22 +191,23 @@ fn flowing(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
         columns.push(first);
     }
     columns.truncate(3);
-    let velocity = |snapshot: &Snapshot| Field::magnitude(snapshot, &["vx", "vy"]);
+    let size = |snapshot: &Snapshot| Field::magnitude(snapshot, field.columns);
     let rows = first.record.snapshots.iter().filter_map(|snapshot| {
         let fields: Option<Vec<_>> = columns
             .iter()
-            .map(|run| at(&run.record.snapshots, snapshot.time).map(velocity))
+            .map(|run| at(&run.record.snapshots, snapshot.time).map(size))
             .collect();
         let fields: Result<Vec<Field>, PlotError> = fields?.into_iter().collect();
         Some(fields.map(|f| (snapshot.time, f)))
     });
     let rows: Vec<(f64, Vec<Field>)> = rows.collect::<Result<_, _>>()?;
-    let Some([low, high]) = rows.first().and_then(|(_, fields)| ends(fields.first()?)) else {
+    let corners = |(_, fields): &(f64, Vec<Field>)| ends(fields.first()?, field.cells);
+    let Some([low, high]) = rows.first().and_then(corners) else {
         return Ok(None);
     };
     let drawing = SnapshotPlot {
-        quantity: "|v|".into(),
-        unit: "m/s".into(),
+        quantity: field.quantity.into(),
+        unit: field.unit.into(),
         methods: columns.iter().map(|r| r.manifest.method.clone()).collect(),
         rows,
         extent: [low, high],
@@ -177,19 +215,20 @@ fn flowing(runs: &[&Run]) -> Result<Option<Picture>, PictureError> {
     }
     .draw()?;
     Ok(Some(Picture {
-        name: "snapshots".into(),
-        title: "Velocity of the soil".into(),
-        caption: "One scale for all; where nothing moves or there is no soil the field is dark."
-            .into(),
+        name: field.name.into(),
+        title: field.title.into(),
+        caption: field.caption.into(),
         drawing,
         raster: true,
     }))
 }
 
-/// Lower left and upper right corner of a field.
-fn ends(field: &Field) -> Option<Corners> {
+/// Lower left and upper right corner of a field of values at nodes, or in the cells that go up from them, of which
+/// the last nodes have none.
+fn ends(field: &Field, cells: bool) -> Option<Corners> {
     let (x, y) = (&field.x, &field.y);
-    Some([[*x.first()?, *y.first()?], [*x.last()?, *y.last()?]])
+    let last = |x: &[f64]| x.iter().rev().nth(usize::from(cells)).copied();
+    Some([[*x.first()?, *y.first()?], [last(x)?, last(y)?]])
 }
 
 /// The snapshot of a time.

@@ -116,6 +116,7 @@ pub fn draw(runs: &[Run], kind: &Kind, ranking: &Ranking, references: &Reference
     gallery.add("ranking", bars(ranking));
     gallery.add("space-time", fields::space_time(&runs));
     gallery.add("snapshots", fields::snapshots(&runs, ranking, references));
+    gallery.add("pressures", fields::pressures(&runs));
     gallery.add("energy", energy(&runs, references));
     gallery
 }

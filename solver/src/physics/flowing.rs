@@ -9,8 +9,9 @@ use super::model::Model;
 use crate::error::SolverError;
 use crate::flow::surface::Surface;
 use crate::flow::{Flow, NodeSums};
+use crate::grid::Grid;
 use crate::problem::StressUpdate;
-use crate::tensor::Vector;
+use crate::tensor::{Vector, trace};
 
 /// Points that explicit steps move.
 pub struct Flowing<const D: usize> {
@@ -90,6 +91,24 @@ impl<const D: usize> Flowing<D> {
                 out[i] += f[i];
             }
         }
+    }
+
+    /// Pressure (Pa, in the plane in 2D) in each cell of the grid, under the number of its lowest node: the mean over
+    /// the target's points there, 0 where there is none.
+    pub fn pressures(&self, grid: &Grid<D>) -> Vec<f64> {
+        let mut sums = vec![[0.0; 2]; grid.node_count()];
+        let Some(target) = self.target() else {
+            return vec![0.0; sums.len()];
+        };
+        for (p, x) in target.places().iter().enumerate() {
+            if let Some((cell, _)) = grid.locate(x) {
+                let [total, number] = &mut sums[grid.node(cell)];
+                *total -= trace(&target.stress(p)) / D as f64;
+                *number += 1.0;
+            }
+        }
+        let mean = |[total, number]: [f64; 2]| total / number.max(1.0);
+        sums.into_iter().map(mean).collect()
     }
 
     fn of_target(&self, target_only: bool) -> impl Iterator<Item = &dyn Flow<D>> {

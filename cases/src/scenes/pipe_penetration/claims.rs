@@ -11,7 +11,7 @@ use anechoic_reference::analytic::impact::Impact;
 use anechoic_reference::analytic::slip_line::{Interface, bearing_factor, merifield_smooth};
 use anechoic_reference::claim::{Accept, Claim, Evidence};
 use anechoic_reports::norms::{first_departure, largest_departure, mean_around};
-use anechoic_solver::record::Record;
+use anechoic_solver::record::{Record, Snapshot};
 
 /// Depths w/D at which the resistance is stated.
 const DEPTHS: [f64; 6] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5];
@@ -105,6 +105,10 @@ pub(super) fn numbers(
         let deepest = inside.iter().copied().fold(0.0, f64::max) / h;
         put("penetration_cells", "pipe".to_owned(), Ok(deepest), None);
     }
+    if let Some(last) = run.snapshots.last() {
+        let noise = checkerboard(last, -scene.pipe.depth * scene.pipe.diameter_m - h);
+        put("checkerboard", "soil".to_owned(), noise, None);
+    }
     if !is_slow(scene)
         && let Some(other) = beside.extended.and_then(|r| Resistance::of(scene, r))
     {
@@ -132,6 +136,29 @@ pub(super) fn numbers(
         }
     }
     numbers
+}
+
+/// How far the pressures of cells that lie below `top` (m) are from the means of the four around them, over the
+/// pressures themselves, by root mean squares: 2 where they alternate, next to nothing where they are smooth.
+fn checkerboard(snapshot: &Snapshot, top: f64) -> Result<f64, String> {
+    let column = snapshot.columns.iter().find(|column| column.name == "p");
+    let p = &column.ok_or("the snapshot has no pressures")?.values;
+    let [across, _, _] = snapshot.counts;
+    // samples are the cells' lower corners, the last along each axis has no cell
+    let rows = ((top - snapshot.origin[1]) / snapshot.spacing[1]).floor() as usize;
+    let (mut off, mut own) = (0.0, 0.0);
+    for (i, j) in
+        (1..rows.max(2) - 1).flat_map(|j| (1..across.saturating_sub(2)).map(move |i| (i, j)))
+    {
+        let at = |i: usize, j: usize| p[j * across + i];
+        let around = at(i - 1, j) + at(i + 1, j) + at(i, j - 1) + at(i, j + 1);
+        off += (at(i, j) - 0.25 * around).powi(2);
+        own += at(i, j).powi(2);
+    }
+    match own > 0.0 {
+        true => Ok((off / own).sqrt()),
+        false => Err("there is no pressure below the pipe".to_owned()),
+    }
 }
 
 /// Depth w/D at which the pipe meets the echo of the base.
