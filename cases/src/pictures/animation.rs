@@ -1,10 +1,10 @@
 //! The wave field over time: standard, a method, and the run without echo, side by side.
 
-use super::fields::{AROUND, SHOWN, around, at, magnitude, mesh};
+use super::fields::{AROUND, SHOWN, around, at, flows, magnitude, mesh, quantity, window};
 use super::{NO_ECHO, PictureError};
 use crate::judge::CERTIFIER;
 use crate::runner::Run;
-use anechoic_reports::plot::{PlotError, SnapshotPlot};
+use anechoic_reports::plot::{Corners, Field, PlotError, SnapshotPlot};
 use anechoic_reports::ranking::Ranking;
 
 /// The animation as a GIF; none where the runs were not asked for one.
@@ -49,16 +49,26 @@ pub fn draw(runs: &[Run], ranking: &Ranking) -> Result<Option<Vec<u8>>, PictureE
         let fields: Result<Vec<_>, PlotError> = fields?.into_iter().collect();
         Some(fields.map(|fields| (frame.time, fields)))
     });
+    let rows: Vec<(f64, Vec<Field>)> = rows.collect::<Result<_, PlotError>>()?;
+    let [quantity, unit] = method.frames.animation.first().map_or([""; 2], quantity);
+    let mut meshes: Vec<Corners> = shown.iter().map(|(_, _, mesh)| *mesh).collect();
+    let mut extent = around(mesh(method), AROUND);
+    // material that flows leaves its mesh
+    let flowing = method.frames.animation.first().is_some_and(flows);
+    if let Some(window) = window(&rows, false).filter(|_| flowing) {
+        extent = window;
+        meshes.fill(window);
+    }
     let plot = SnapshotPlot {
-        quantity: "|u|".into(),
-        unit: "m".into(),
+        quantity: quantity.into(),
+        unit: unit.into(),
         methods: shown
             .iter()
             .map(|(name, _, _)| (*name).to_owned())
             .collect(),
-        rows: rows.collect::<Result<_, PlotError>>()?,
-        extent: around(mesh(method), AROUND),
-        meshes: shown.iter().map(|(_, _, mesh)| *mesh).collect(),
+        rows,
+        extent,
+        meshes,
     };
     Ok(Some(plot.to_gif()?))
 }

@@ -175,10 +175,7 @@ pub(super) fn pressures(runs: &[&Run]) -> Result<Option<Picture>, PictureError> 
 
 /// A field of flowing material at the snapshots' times: standard run and others; `None` where nothing flows.
 fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError> {
-    let flows = |run: &&&Run| {
-        let mut all = run.record.snapshots.iter().flat_map(|s| &s.columns);
-        all.any(|column| column.name == "vx")
-    };
+    let flows = |run: &&&Run| run.record.snapshots.iter().any(flows);
     let Some(first) = runs.iter().find(flows) else {
         return Ok(None);
     };
@@ -201,8 +198,7 @@ fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError
         Some(fields.map(|f| (snapshot.time, f)))
     });
     let rows: Vec<(f64, Vec<Field>)> = rows.collect::<Result<_, _>>()?;
-    let corners = |(_, fields): &(f64, Vec<Field>)| ends(fields.first()?, field.cells);
-    let Some([low, high]) = rows.first().and_then(corners) else {
+    let Some(window) = window(&rows, field.cells) else {
         return Ok(None);
     };
     let drawing = SnapshotPlot {
@@ -210,8 +206,8 @@ fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError
         unit: field.unit.into(),
         methods: columns.iter().map(|r| r.manifest.method.clone()).collect(),
         rows,
-        extent: [low, high],
-        meshes: vec![[low, high]; columns.len()],
+        extent: window,
+        meshes: vec![window; columns.len()],
     }
     .draw()?;
     Ok(Some(Picture {
@@ -223,9 +219,10 @@ fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError
     }))
 }
 
-/// Lower left and upper right corner of a field of values at nodes, or in the cells that go up from them, of which
-/// the last nodes have none.
-fn ends(field: &Field, cells: bool) -> Option<Corners> {
+/// Lower left and upper right corner of the first field, of values at nodes or in the `cells` that go up from them,
+/// of which the last nodes have none.
+pub(super) fn window(rows: &[(f64, Vec<Field>)], cells: bool) -> Option<Corners> {
+    let field = rows.first()?.1.first()?;
     let (x, y) = (&field.x, &field.y);
     let last = |x: &[f64]| x.iter().rev().nth(usize::from(cells)).copied();
     Some([[*x.first()?, *y.first()?], [last(x)?, last(y)?]])
@@ -236,10 +233,31 @@ pub(super) fn at(snapshots: &[Snapshot], time: f64) -> Option<&Snapshot> {
     snapshots.iter().find(|s| (s.time - time).abs() < 1e-6)
 }
 
-/// The size of the displacement; of a body in space it is shown on the back side, a plane of symmetry, which
-/// nothing crosses.
+/// Does a snapshot show material that flows?
+pub(super) fn flows(snapshot: &Snapshot) -> bool {
+    let mut columns = snapshot.columns.iter();
+    columns.any(|column| column.name == "vx")
+}
+
+/// What a snapshot's vector is, and its unit: of material that flows the velocity.
+pub(super) fn quantity(snapshot: &Snapshot) -> [&'static str; 2] {
+    match flows(snapshot) {
+        true => [VELOCITY.quantity, VELOCITY.unit],
+        false => ["|u|", "m"],
+    }
+}
+
+/// The size of the displacement, or of the velocity of material that flows; of a body in space it is shown on
+/// the back side, a plane of symmetry, which nothing crosses.
 pub(super) fn magnitude(snapshot: &Snapshot) -> Result<Field, PlotError> {
-    Field::magnitude(snapshot, &["ux", "uy"])
+    let [quantity, _] = quantity(snapshot);
+    let flows = quantity == VELOCITY.quantity;
+    let columns: &[&str] = if flows {
+        VELOCITY.columns
+    } else {
+        &["ux", "uy"]
+    };
+    Field::magnitude(snapshot, columns)
 }
 
 /// All material of a run (m), across and up.
