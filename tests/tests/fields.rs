@@ -98,3 +98,32 @@ fn a_comparison_leaves_an_animation_where_it_is_asked_for() {
     passes(folder.path(), &narrow(&compare));
     assert!(!path.exists());
 }
+
+/// Soil that flows has no displacement: what is written and animated is its velocity, and its pressure beside.
+#[test]
+fn soil_that_flows_leaves_velocities() {
+    let folder = folder();
+    let arguments = [
+        "compare",
+        "pipe-penetration",
+        "--profile",
+        "gate",
+        "--method",
+        "fixed",
+        "--method",
+        "pml",
+        "--set",
+        "pipe.depth=0.15",
+        "--fields",
+        "--animate",
+    ];
+    let output = anechoic(folder.path(), &arguments);
+    assert_eq!(output.code, 0, "{}{}", output.err, output.out);
+    assert!(output.out.contains("animation.gif"), "{}", output.out);
+    let runs = folder.path().join("results/pipe-penetration/pml");
+    let mut runs = std::fs::read_dir(runs).expect("runs of the method");
+    let run = runs.next().expect("one").expect("an entry").path();
+    let bytes = std::fs::read(run.join("fields/000.vtu")).expect("a file");
+    let text = String::from_utf8_lossy(&bytes);
+    assert!(text.contains("velocity") && text.contains("pressure"));
+}
