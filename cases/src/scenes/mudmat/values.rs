@@ -81,6 +81,12 @@ pub(super) const METHODS: &[Overlay] = &[
         boundary.top.method = 'dashpot'",
     ),
     Overlay::new(
+        "hybrid-rate",
+        "the same with a layer that damps by its rate, whatever the step",
+        "boundary.left = { method = 'damping-layer', placement = 'inside', thickness_m = 10.0, form = 'rate', sigma_max_per_s = 100.0, power = 2.0, end = 'inflow' }
+        boundary.top.method = 'dashpot'",
+    ),
+    Overlay::new(
         "pml",
         "the true layer before the slide's end, ten cells that move along; free top",
         "boundary.left.method = 'pml'
