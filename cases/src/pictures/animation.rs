@@ -1,6 +1,6 @@
 //! The wave field over time: standard, a method, and the run without echo, side by side.
 
-use super::fields::{AROUND, SHOWN, around, at, flows, magnitude, mesh, quantity, window};
+use super::fields::{AROUND, SHOWN, around, at, flows, magnitude, mesh, quantity, windows};
 use super::{NO_ECHO, PictureError};
 use crate::judge::CERTIFIER;
 use crate::runner::Run;
@@ -55,9 +55,8 @@ pub fn draw(runs: &[Run], ranking: &Ranking) -> Result<Option<Vec<u8>>, PictureE
     let mut extent = around(mesh(method), AROUND);
     // material that flows leaves its mesh
     let flowing = method.frames.animation.first().is_some_and(flows);
-    if let Some(window) = window(&rows, false).filter(|_| flowing) {
-        extent = window;
-        meshes.fill(window);
+    if let Some(own) = windows(&rows).filter(|_| flowing) {
+        (meshes, extent) = own;
     }
     let plot = SnapshotPlot {
         quantity: quantity.into(),

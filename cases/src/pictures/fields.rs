@@ -120,7 +120,7 @@ pub(super) fn snapshots(
         name: "snapshots".into(),
         title: "Displacement in the target".into(),
         caption: format!(
-            "Grey: material around the target, in the middle the method's layer with its outer edge. One scale for all.{}",
+            "Grey: material around the target, in the middle the method's layer with its outer edge. One scale for all but the largest hundredth.{}",
             match method.prepared.scene.posed() {
                 Posed::Plane(_) => "",
                 Posed::Space(_) =>
@@ -155,7 +155,7 @@ const VELOCITY: Shown = Shown {
     unit: "m/s",
     name: "snapshots",
     title: "Velocity of the soil",
-    caption: "One scale for all; where nothing moves or there is no soil the field is dark.",
+    caption: "One scale for all but the largest hundredth; where nothing moves or there is no soil the field is dark.",
 };
 
 const PRESSURE: Shown = Shown {
@@ -165,7 +165,7 @@ const PRESSURE: Shown = Shown {
     unit: "Pa",
     name: "pressures",
     title: "Pressure in the soil",
-    caption: "Means over cells, in the plane. One scale for all. Cells that are darker and lighter in turn are not physics: soil that hardly changes its volume has more constraints than nodes to meet them.",
+    caption: "Means over cells, in the plane. One scale for all but the largest hundredth. Cells that are darker and lighter in turn are not physics: soil that hardly changes its volume has more constraints than nodes to meet them.",
 };
 
 /// Pressures of flowing material; `None` where nothing flows.
@@ -188,7 +188,14 @@ fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError
         columns.push(first);
     }
     columns.truncate(3);
-    let size = |snapshot: &Snapshot| Field::magnitude(snapshot, field.columns);
+    let size = |snapshot: &Snapshot| {
+        let size = Field::magnitude(snapshot, field.columns)?;
+        Ok(if field.cells {
+            without_last(size)
+        } else {
+            size
+        })
+    };
     let rows = first.record.snapshots.iter().filter_map(|snapshot| {
         let fields: Option<Vec<_>> = columns
             .iter()
@@ -198,7 +205,7 @@ fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError
         Some(fields.map(|f| (snapshot.time, f)))
     });
     let rows: Vec<(f64, Vec<Field>)> = rows.collect::<Result<_, _>>()?;
-    let Some(window) = window(&rows, field.cells) else {
+    let Some((meshes, extent)) = windows(&rows) else {
         return Ok(None);
     };
     let drawing = SnapshotPlot {
@@ -206,8 +213,8 @@ fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError
         unit: field.unit.into(),
         methods: columns.iter().map(|r| r.manifest.method.clone()).collect(),
         rows,
-        extent: window,
-        meshes: vec![window; columns.len()],
+        extent,
+        meshes,
     }
     .draw()?;
     Ok(Some(Picture {
@@ -219,13 +226,34 @@ fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError
     }))
 }
 
-/// Lower left and upper right corner of the first field, of values at nodes or in the `cells` that go up from them,
-/// of which the last nodes have none.
-pub(super) fn window(rows: &[(f64, Vec<Field>)], cells: bool) -> Option<Corners> {
-    let field = rows.first()?.1.first()?;
-    let (x, y) = (&field.x, &field.y);
-    let last = |x: &[f64]| x.iter().rev().nth(usize::from(cells)).copied();
-    Some([[*x.first()?, *y.first()?], [last(x)?, last(y)?]])
+/// Values of the cells that go up from nodes, of which the last nodes have none.
+fn without_last(mut field: Field) -> Field {
+    let across = field.x.len();
+    field.x.pop();
+    field.y.pop();
+    let rows = field.values.chunks_exact(across).take(field.y.len());
+    field.values = rows
+        .flat_map(|row| &row[..field.x.len()])
+        .copied()
+        .collect();
+    field
+}
+
+/// The box of each field of the first row, and the box around all.
+pub(super) fn windows(rows: &[(f64, Vec<Field>)]) -> Option<(Vec<Corners>, Corners)> {
+    let corners = |field: &Field| -> Option<Corners> {
+        let (x, y) = (&field.x, &field.y);
+        Some([[*x.first()?, *y.first()?], [*x.last()?, *y.last()?]])
+    };
+    let fields = rows.first()?.1.iter();
+    let boxes = fields.map(corners).collect::<Option<Vec<Corners>>>()?;
+    let around = |[low, high]: Corners, [lower, upper]: &Corners| {
+        let pick =
+            |of: fn(f64, f64) -> f64, a: [f64; 2], b: &[f64; 2]| [0, 1].map(|i| of(a[i], b[i]));
+        [pick(f64::min, low, lower), pick(f64::max, high, upper)]
+    };
+    let all = boxes.iter().fold(*boxes.first()?, around);
+    Some((boxes, all))
 }
 
 /// The snapshot of a time.

@@ -17,8 +17,6 @@ const TOP: f64 = 34.0;
 const LINE: u32 = 22;
 /// Greys of the ramp, from ink to paper.
 const GREYS: usize = 54;
-/// Share of all values, over all frames, within the scale.
-const WITHIN: f64 = 0.99;
 /// Time for which a frame stands (1/100 s); the last one stands [`HOLD`] times as long.
 const DELAY: u16 = 8;
 const HOLD: u16 = 12;
@@ -71,10 +69,7 @@ impl Colouring {
 }
 
 impl SnapshotPlot {
-    /// The plot as an animated GIF, one frame a row.
-    ///
-    /// A hundredth of all values is beyond the scale and has its last colour: else the surroundings of
-    /// a source, early, would leave nothing to see of the waves.
+    /// The plot as an animated GIF, one frame a row, with the scale of [`Self::draw`].
     pub fn to_gif(&self) -> Result<Vec<u8>, PlotError> {
         self.check()?;
         let colours = Colouring::new(Colours::sequential(self.scale()));
@@ -124,15 +119,6 @@ impl SnapshotPlot {
         let height = panel_height.min(260.0);
         colour_bar(&mut drawing, (WIDTH - BAR, TOP), height, &colours.map, name);
         Ok(drawing)
-    }
-
-    /// End of the scale; 1 where nothing moves.
-    fn scale(&self) -> f64 {
-        let fields = self.rows.iter().flat_map(|(_, fields)| fields);
-        let mut values: Vec<f64> = fields.flat_map(|field| &field.values).copied().collect();
-        let at = (WITHIN * values.len() as f64) as usize;
-        let (_, end, _) = values.select_nth_unstable_by(at, f64::total_cmp);
-        if *end > 0.0 { *end } else { 1.0 }
     }
 }
 

@@ -25,6 +25,9 @@ pub struct Field {
     pub values: Vec<f64>,
 }
 
+/// Share of all values, over all rows, within the scale.
+const WITHIN: f64 = 0.99;
+
 impl Field {
     /// Magnitude over the columns `names` (for example `ux`, `uy`) of a snapshot's first layer.
     pub fn magnitude(snapshot: &Snapshot, names: &[&str]) -> Result<Field, PlotError> {
@@ -92,7 +95,7 @@ impl SnapshotPlot {
         let (_, height) = self.panel_size();
         let total = TOP + self.rows.len() as f64 * (height + GAP) + FOOT;
         let mut drawing = Drawing::new(WIDTH as u32, total as u32);
-        let colours = Colours::sequential(self.limit());
+        let colours = Colours::sequential(self.scale());
         for (row, (time, fields)) in self.rows.iter().enumerate() {
             for (column, field) in fields.iter().enumerate() {
                 let panel = self.panel(column, TOP + row as f64 * (height + GAP));
@@ -172,16 +175,14 @@ impl SnapshotPlot {
         Ok(())
     }
 
-    fn fields(&self) -> impl Iterator<Item = &Field> {
-        self.rows.iter().flat_map(|(_, fields)| fields)
-    }
-
-    fn limit(&self) -> f64 {
-        let largest = self
-            .fields()
-            .flat_map(|f| &f.values)
-            .fold(0.0, |m, v| f64::max(m, *v));
-        if largest > 0.0 { largest } else { 1.0 }
+    /// End of the scale: a hundredth of all values is beyond it and has its last colour, else the surroundings of a
+    /// source or a splash would leave nothing to see of the waves. 1 where nothing moves.
+    pub(super) fn scale(&self) -> f64 {
+        let fields = self.rows.iter().flat_map(|(_, fields)| fields);
+        let mut values: Vec<f64> = fields.flat_map(|field| &field.values).copied().collect();
+        let at = (WITHIN * values.len() as f64) as usize;
+        let (_, end, _) = values.select_nth_unstable_by(at, f64::total_cmp);
+        if *end > 0.0 { *end } else { 1.0 }
     }
 
     /// Frame and axes of a method's panel; headlines stand on the first row, the names of the axis
