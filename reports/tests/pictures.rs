@@ -306,7 +306,7 @@ fn bars_show_values_and_costs() {
 fn fields_share_a_scale() {
     let texts = ["height y (m)", "velocity (m/s)", "layer", "dashpot"];
     look("space_time", space_time().draw(), &texts);
-    let texts = ["t = 0.8 s", "pml-stretched", "displacement |u| (10⁻⁶ m)"];
+    let texts = ["t = 0.8 s", "pml-stretched", "displacement |u| (10⁻⁹ m)"];
     look("snapshots", snapshots().draw(), &texts);
 }
 
