@@ -18,7 +18,7 @@ pub const BAND: RGBColor = RGBColor(0xf6, 0xd9, 0xd5);
 /// Paper.
 pub const PAPER: RGBColor = RGBColor(0xff, 0xff, 0xff);
 
-const NAMED: [(&str, RGBColor); 11] = [
+const NAMED: [(&str, RGBColor); 12] = [
     ("fixed", RGBColor(0xd5, 0x5e, 0x00)),
     ("roller", RGBColor(0xd5, 0x5e, 0x00)),
     ("dashpot", RGBColor(0xe6, 0x9f, 0x00)),
@@ -29,6 +29,7 @@ const NAMED: [(&str, RGBColor); 11] = [
     ("pml-stretched", RGBColor(0x56, 0xb4, 0xe9)),
     ("penalty", RGBColor(0xcc, 0x79, 0xa7)),
     ("extended", RGBColor(0x55, 0x55, 0x55)),
+    ("hybrid-rate", RGBColor(0x66, 0x11, 0x00)),
     ("free", RGBColor(0xaa, 0x44, 0x99)),
 ];
 

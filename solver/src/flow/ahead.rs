@@ -2,8 +2,8 @@
 //!
 //! A pass reads a handful of columns side by side, each far longer than the caches. The machine sees such streams
 //! come and reads ahead, but no farther than to the end of a page (4 KiB), so that every page of every column
-//! starts with a wait for the memory: a million points took 45 ns a point and step, 31 ns of them work. With this
-//! they take 36.
+//! starts with a wait for the memory. Asked for a block early, a million points take 40 ns a point and step instead
+//! of 45, 31 of them work.
 
 use std::ops::Range;
 
