@@ -34,8 +34,8 @@ pub enum FieldError {
 }
 
 /// The field on the nodes of a snapshot's lattice: quadrilaterals in the plane, hexahedra in space, with the
-/// vector `displacement` (m) at their corners, or `velocity` (m/s) and `pressure` (Pa) where they are what it
-/// holds, in single precision. Values that are not finite stay so.
+/// vector `displacement` (m) at their corners, or `velocity` (m/s) with the cells' `pressure` (Pa) where they are
+/// what it holds, in single precision. Values that are not finite stay so.
 pub fn vtu(snapshot: &Snapshot) -> Result<Vec<u8>, FieldError> {
     let [nx, ny, nz] = snapshot.counts;
     if nx < 2 || ny < 2 || nz < 1 {
@@ -83,11 +83,13 @@ pub fn vtu(snapshot: &Snapshot) -> Result<Vec<u8>, FieldError> {
     let count = corners.len() / ends;
     let pressures = snapshot.columns.iter().find(|column| column.name == "p");
     let scalars = pressures.map(|column| {
-        let values: Vec<f32> = column.values.iter().map(|p| *p as f32).collect();
+        // samples are the cells' lower corners
+        let cells = nodes()
+            .zip(&column.values)
+            .filter(|([ix, iy, iz], _)| ix + 1 < nx && iy + 1 < ny && (iz + 1 < nz || !solid));
+        let values: Vec<f32> = cells.map(|(_, p)| *p as f32).collect();
         Attribute::scalars("pressure", 1).with_data(values)
     });
-    let mut attributes = vec![Attribute::vectors(quantity).with_data(vectors)];
-    attributes.extend(scalars);
     let piece = UnstructuredGridPiece {
         points: points.into(),
         cells: Cells {
@@ -98,8 +100,8 @@ pub fn vtu(snapshot: &Snapshot) -> Result<Vec<u8>, FieldError> {
             types: vec![kind; count],
         },
         data: Attributes {
-            point: attributes,
-            cell: Vec::new(),
+            point: vec![Attribute::vectors(quantity).with_data(vectors)],
+            cell: scalars.into_iter().collect(),
         },
     };
     let failed = |error: xml::Error| FieldError::Write(error.to_string());

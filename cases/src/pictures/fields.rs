@@ -190,11 +190,7 @@ fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError
     columns.truncate(3);
     let size = |snapshot: &Snapshot| {
         let size = Field::magnitude(snapshot, field.columns)?;
-        Ok(if field.cells {
-            without_last(size)
-        } else {
-            size
-        })
+        Ok(if field.cells { of_cells(size) } else { size })
     };
     let rows = first.record.snapshots.iter().filter_map(|snapshot| {
         let fields: Option<Vec<_>> = columns
@@ -226,9 +222,16 @@ fn flowing(runs: &[&Run], field: &Shown) -> Result<Option<Picture>, PictureError
     }))
 }
 
-/// Values of the cells that go up from nodes, of which the last nodes have none.
-fn without_last(mut field: Field) -> Field {
+/// Values of the cells that go up from nodes, of which the last nodes have none, at the cells' centres.
+fn of_cells(mut field: Field) -> Field {
     let across = field.x.len();
+    for axis in [&mut field.x, &mut field.y] {
+        let half = axis
+            .windows(2)
+            .next()
+            .map_or(0.0, |two| 0.5 * (two[1] - two[0]));
+        axis.iter_mut().for_each(|x| *x += half);
+    }
     field.x.pop();
     field.y.pop();
     let rows = field.values.chunks_exact(across).take(field.y.len());
@@ -239,19 +242,27 @@ fn without_last(mut field: Field) -> Field {
     field
 }
 
-/// The box of each field of the first row, and the box around all.
+/// The box of each column of fields, whatever the row, and the box around all.
 pub(super) fn windows(rows: &[(f64, Vec<Field>)]) -> Option<(Vec<Corners>, Corners)> {
     let corners = |field: &Field| -> Option<Corners> {
         let (x, y) = (&field.x, &field.y);
         Some([[*x.first()?, *y.first()?], [*x.last()?, *y.last()?]])
     };
-    let fields = rows.first()?.1.iter();
-    let boxes = fields.map(corners).collect::<Option<Vec<Corners>>>()?;
     let around = |[low, high]: Corners, [lower, upper]: &Corners| {
         let pick =
             |of: fn(f64, f64) -> f64, a: [f64; 2], b: &[f64; 2]| [0, 1].map(|i| of(a[i], b[i]));
         [pick(f64::min, low, lower), pick(f64::max, high, upper)]
     };
+    let of_row = |(_, fields): &(f64, Vec<Field>)| fields.iter().map(corners).collect();
+    let mut all_rows = rows.iter().map(of_row);
+    let first: Option<Vec<Corners>> = all_rows.next()?;
+    let join = |mut boxes: Vec<Corners>, row: Option<Vec<Corners>>| {
+        for (own, other) in boxes.iter_mut().zip(row?) {
+            *own = around(*own, &other);
+        }
+        Some(boxes)
+    };
+    let boxes = all_rows.try_fold(first?, join)?;
     let all = boxes.iter().fold(*boxes.first()?, around);
     Some((boxes, all))
 }

@@ -28,6 +28,9 @@ pub struct Field {
 /// Share of all values, over all rows, within the scale.
 const WITHIN: f64 = 0.99;
 
+/// The scale ends above this share of the largest value.
+const LEAST: f64 = 1e-3;
+
 impl Field {
     /// Magnitude over the columns `names` (for example `ux`, `uy`) of a snapshot's first layer.
     pub fn magnitude(snapshot: &Snapshot, names: &[&str]) -> Result<Field, PlotError> {
@@ -176,13 +179,19 @@ impl SnapshotPlot {
     }
 
     /// End of the scale: a hundredth of all values is beyond it and has its last colour, else the surroundings of a
-    /// source or a splash would leave nothing to see of the waves. 1 where nothing moves.
+    /// source or a splash would leave nothing to see of the waves. The largest value where hardly more than that
+    /// hundredth moves; 1 where nothing does.
     pub(super) fn scale(&self) -> f64 {
         let fields = self.rows.iter().flat_map(|(_, fields)| fields);
         let mut values: Vec<f64> = fields.flat_map(|field| &field.values).copied().collect();
+        let largest = values.iter().copied().fold(0.0, f64::max);
         let at = (WITHIN * values.len() as f64) as usize;
         let (_, end, _) = values.select_nth_unstable_by(at, f64::total_cmp);
-        if *end > 0.0 { *end } else { 1.0 }
+        match (*end > LEAST * largest, largest > 0.0) {
+            (true, _) => *end,
+            (false, true) => largest,
+            (false, false) => 1.0,
+        }
     }
 
     /// Frame and axes of a method's panel; headlines stand on the first row, the names of the axis

@@ -31,7 +31,8 @@
 //! adjoint as well, so that masses, momenta and work are kept, though not linear fields: a film thinner than a
 //! tenth of a cell moves as one with the end, and stays where that is held. A node next to an end is faint by such
 //! points and not by its distance from a body while it has less than twice that share. It does not lean then: it
-//! would hand all of their force, doubled, to a node that may be hardly heavier than itself.
+//! would hand all of their force, doubled, to a node that may be hardly heavier than itself. Where the end's node is
+//! faint as well it sticks to that at once, and goes with it where that leans.
 
 use super::NodeSums;
 use crate::grid::Grid;
@@ -91,6 +92,8 @@ pub struct Surface<const D: usize> {
     rest: Vec<u32>,
     /// Nodes next to an end of the grid, and the nodes on it: axis by axis.
     ends: Vec<[u32; 2]>,
+    /// Nodes apart that stick to ends which are faint themselves, before those lean.
+    before: Vec<[u32; 2]>,
     /// Light nodes and the nodes that they stick to, which may stick to later ones.
     stuck: Vec<[u32; 2]>,
 }
@@ -109,6 +112,7 @@ impl<const D: usize> Surface<D> {
             steps: vec![0; nodes],
             leans: Vec::with_capacity(nodes),
             rest: Vec::with_capacity(nodes),
+            before: Vec::with_capacity(ends.len()),
             stuck: Vec::with_capacity(ends.len()),
             ends,
         }
@@ -117,6 +121,10 @@ impl<const D: usize> Surface<D> {
     /// Finds the faint nodes by the sums of all bodies and takes from them what they have.
     pub fn fold(&mut self, sums: &mut NodeSums<D>) {
         self.find(&sums.mass);
+        for &[node, end] in &self.before {
+            let mass = std::mem::replace(&mut sums.mass[node as usize], 0.0);
+            sums.mass[end as usize] += mass;
+        }
         for lean in self.leans.iter().rev() {
             let [node, one, two] = lean.line();
             let mass = std::mem::replace(&mut sums.mass[node], 0.0);
@@ -130,6 +138,7 @@ impl<const D: usize> Surface<D> {
 
     /// The same with the same nodes for one field of sums: momenta after a kick.
     pub fn fold_field(&self, sums: &mut [Vector<D>]) {
+        give_all(&self.before, sums);
         for lean in self.leans.iter().rev() {
             let [node, one, two] = lean.line();
             let s = std::mem::replace(&mut sums[node], [0.0; D]);
@@ -138,12 +147,7 @@ impl<const D: usize> Surface<D> {
                 sums[two][i] -= s[i];
             }
         }
-        for &[node, end] in &self.stuck {
-            let s = std::mem::replace(&mut sums[node as usize], [0.0; D]);
-            for i in 0..D {
-                sums[end as usize][i] += s[i];
-            }
-        }
+        give_all(&self.stuck, sums);
     }
 
     /// Lets the faint nodes follow those before them: velocities or accelerations.
@@ -154,6 +158,9 @@ impl<const D: usize> Surface<D> {
         for lean in &self.leans {
             let [node, one, two] = lean.line();
             field[node] = std::array::from_fn(|i| 2.0 * field[one][i] - field[two][i]);
+        }
+        for &[node, end] in self.before.iter().rev() {
+            field[node as usize] = field[end as usize];
         }
     }
 
@@ -180,15 +187,21 @@ impl<const D: usize> Surface<D> {
                 Kind::Void
             };
         }
+        self.left.copy_from_slice(mass);
+        self.before.clear();
         for &[node, end] in &self.ends {
             let [node, end] = [node as usize, end as usize];
-            if self.kinds[node] == Kind::Faint && mass[node] < 2.0 * LIGHT * mass[end] {
-                self.kinds[node] = Kind::Apart;
+            if self.kinds[node] != Kind::Faint || mass[node] >= 2.0 * LIGHT * mass[end] {
+                continue;
+            }
+            self.kinds[node] = Kind::Apart;
+            if self.kinds[end] == Kind::Faint {
+                self.left[end] += std::mem::replace(&mut self.left[node], 0.0);
+                self.before.push([node as u32, end as u32]);
             }
         }
         self.rest
             .retain(|&node| self.kinds[node as usize] == Kind::Faint);
-        self.left.copy_from_slice(mass);
         for turn in 0..D as u8 {
             let mut rest = std::mem::take(&mut self.rest);
             rest.retain(|&node| match self.lean(node as usize, turn, mass) {
@@ -202,7 +215,7 @@ impl<const D: usize> Surface<D> {
     /// Lets a node lean, unless some other would be left with too little.
     fn take(&mut self, lean: Lean, turn: u8, mass: &[f64]) -> bool {
         let [node, one, two] = lean.line();
-        let own = mass[node];
+        let own = self.left[node];
         let sound = self.give(one, 2.0 * own, mass) & self.give(two, -own, mass);
         if !sound {
             self.give(one, -2.0 * own, mass);
@@ -283,6 +296,16 @@ impl<const D: usize> Surface<D> {
             stride *= self.grid.nodes_along(a) as i32;
         }
         best.map(|(_, lean)| lean)
+    }
+}
+
+/// Gives the sums of nodes to the ends that they stick to.
+fn give_all<const D: usize>(stuck: &[[u32; 2]], sums: &mut [Vector<D>]) {
+    for &[node, end] in stuck {
+        let s = std::mem::replace(&mut sums[node as usize], [0.0; D]);
+        for i in 0..D {
+            sums[end as usize][i] += s[i];
+        }
     }
 }
 

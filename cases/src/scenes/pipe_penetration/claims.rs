@@ -106,7 +106,12 @@ pub(super) fn numbers(
         put("penetration_cells", "pipe".to_owned(), Ok(deepest), None);
     }
     if let Some(last) = run.snapshots.last() {
-        let noise = checkerboard(last, -scene.pipe.depth * scene.pipe.diameter_m - h);
+        let top = -scene.pipe.depth * scene.pipe.diameter_m - h;
+        let noise = checkerboard(
+            last,
+            [scene.body.width_m, top],
+            scene.grid.cell(&scene.soil()),
+        );
         put("checkerboard", "soil".to_owned(), noise, None);
     }
     if !is_slow(scene)
@@ -138,18 +143,21 @@ pub(super) fn numbers(
     numbers
 }
 
-/// How far the pressures of cells that lie below `top` (m) are from the means of the four around them, over the
-/// pressures themselves, by root mean squares: 2 where they alternate, next to nothing where they are smooth.
-fn checkerboard(snapshot: &Snapshot, top: f64) -> Result<f64, String> {
+/// How far the pressures of cells with edges `h` (m) left of and below a corner (m) are from the means of the four
+/// around them, over the pressures themselves, by root mean squares: 2 where they alternate, next to nothing where they are smooth.
+fn checkerboard(snapshot: &Snapshot, corner: [f64; 2], h: [f64; 2]) -> Result<f64, String> {
     let column = snapshot.columns.iter().find(|column| column.name == "p");
     let p = &column.ok_or("the snapshot has no pressures")?.values;
     let [across, _, _] = snapshot.counts;
-    // samples are the cells' lower corners, the last along each axis has no cell
-    let rows = ((top - snapshot.origin[1]) / snapshot.spacing[1]).floor() as usize;
+    if (0..2).any(|a| snapshot.spacing[a] > 1.5 * h[a]) {
+        return Err("not every cell is recorded".to_owned());
+    }
+    // samples are the cells' lower corners
+    let cells = |a: usize| (corner[a] - snapshot.origin[a]) / snapshot.spacing[a] + 1e-6;
+    let [columns, rows] = [0, 1].map(|a| cells(a).floor() as usize);
+    let columns = columns.min(across.saturating_sub(1));
     let (mut off, mut own) = (0.0, 0.0);
-    for (i, j) in
-        (1..rows.max(2) - 1).flat_map(|j| (1..across.saturating_sub(2)).map(move |i| (i, j)))
-    {
+    for (i, j) in (1..rows.max(2) - 1).flat_map(|j| (1..columns.max(2) - 1).map(move |i| (i, j))) {
         let at = |i: usize, j: usize| p[j * across + i];
         let around = at(i - 1, j) + at(i + 1, j) + at(i, j - 1) + at(i, j + 1);
         off += (at(i, j) - 0.25 * around).powi(2);
