@@ -289,12 +289,9 @@ pub(super) fn quantity(snapshot: &Snapshot) -> [&'static str; 2] {
 /// The size of the displacement, or of the velocity of material that flows; of a body in space it is shown on
 /// the back side, a plane of symmetry, which nothing crosses.
 pub(super) fn magnitude(snapshot: &Snapshot) -> Result<Field, PlotError> {
-    let [quantity, _] = quantity(snapshot);
-    let flows = quantity == VELOCITY.quantity;
-    let columns: &[&str] = if flows {
-        VELOCITY.columns
-    } else {
-        &["ux", "uy"]
+    let columns: &[&str] = match flows(snapshot) {
+        true => VELOCITY.columns,
+        false => &["ux", "uy"],
     };
     Field::magnitude(snapshot, columns)
 }

@@ -17,6 +17,21 @@ pub(super) struct Columns<S, const D: usize> {
     pub state: Vec<S>,
 }
 
+/// Asks the memory for a range of points, column by column.
+#[inline]
+fn fetch_points<S, const D: usize>(
+    place: &[Vector<D>],
+    velocity: &[Vector<D>],
+    gradient: &[Matrix<D>],
+    state: &[S],
+    range: Range<usize>,
+) {
+    fetch(place, range.clone());
+    fetch(velocity, range.clone());
+    fetch(gradient, range.clone());
+    fetch(state, range);
+}
+
 /// Consecutive points.
 #[derive(Debug)]
 pub(super) struct Part<'a, S, const D: usize> {
@@ -30,10 +45,7 @@ impl<'a, S, const D: usize> Part<'a, S, D> {
     /// Asks the memory for the points in `range`, as far as there are such.
     #[inline]
     pub fn fetch(&self, range: Range<usize>) {
-        fetch(self.place, range.clone());
-        fetch(self.velocity, range.clone());
-        fetch(self.gradient, range.clone());
-        fetch(self.state, range);
+        fetch_points(self.place, self.velocity, self.gradient, self.state, range);
     }
 
     /// The first `n` points and the others.
@@ -77,10 +89,13 @@ impl<S: Copy, const D: usize> Columns<S, D> {
     /// Asks the memory for the points in `range`, as far as there are such.
     #[inline]
     pub fn fetch(&self, range: Range<usize>) {
-        fetch(&self.place, range.clone());
-        fetch(&self.velocity, range.clone());
-        fetch(&self.gradient, range.clone());
-        fetch(&self.state, range);
+        fetch_points(
+            &self.place,
+            &self.velocity,
+            &self.gradient,
+            &self.state,
+            range,
+        );
     }
 
     /// All points as one part.
